@@ -1,0 +1,85 @@
+// Where a ray met a surface, and what it met.
+#pragma once
+
+#include "materials/gltf_material.cl"
+#include "shared/features.h"
+#include "shared/path.h"
+#include "shared/scene.h"
+
+#define TRIANGLE_NORMALS TRIANGLE_ATTRIBUTES
+#define TRIANGLE_COLORS (TRIANGLE_ATTRIBUTES + 9 * HAS_VERTEX_NORMALS)
+#define TRIANGLE_FLOATS (TRIANGLE_ATTRIBUTES + 9 * HAS_VERTEX_NORMALS + 9 * HAS_VERTEX_COLORS)
+
+// How far a ray starts off its surface, along the geometric normal. The scene is normalised, so one number serves all:
+// hit points from barycentrics are right to 1e-7, a tenth of this.
+#define RAY_OFFSET 0x1p-20f
+
+typedef struct {
+    Vec3 p;        // position [normalised]
+    Vec3 ng;       // geometric normal, unit, on the viewer's side
+    Vec3 n;        // shading normal, unit, on the viewer's side
+    int front;     // the viewer sees the front face
+    Surface surface;
+    Vec3 emission;  // towards the viewer [radiance]
+    uint light;     // row of the light table, or NO_LIGHT
+} Interaction;
+
+inline Vec3 triangle_corner(global const float* triangle, const int attribute, const int corner) {
+    return vec3(
+        triangle[attribute + 3 * corner], triangle[attribute + 3 * corner + 1],
+        triangle[attribute + 3 * corner + 2]);
+}
+
+inline Vec3 interpolate(global const float* triangle, const int attribute, const float u, const float v) {
+    const Vec3 a = triangle_corner(triangle, attribute, 0);
+    const Vec3 b = triangle_corner(triangle, attribute, 1);
+    const Vec3 c = triangle_corner(triangle, attribute, 2);
+    return madd3(madd3(scale3(a, 1.0f - u - v), b, u), c, v);
+}
+
+// Normal of a triangle, not unit: length = twice the area; towards whom its corners run counter-clockwise.
+inline Vec3 triangle_cross(global const float* triangle) {
+    const Vec3 a = triangle_corner(triangle, TRIANGLE_CORNERS, 0);
+    return cross3(
+        sub3(triangle_corner(triangle, TRIANGLE_CORNERS, 1), a),
+        sub3(triangle_corner(triangle, TRIANGLE_CORNERS, 2), a));
+}
+
+// `primitive` < 0 stands for triangle 0: the caller ignores the result.
+inline Interaction interact(
+    global const float* triangles,
+    global const DeviceMaterial* materials,
+    const int primitive,
+    const float u,
+    const float v,
+    const Vec3 direction) {
+    global const float* triangle = triangles + TRIANGLE_FLOATS * max(primitive, 0);
+    global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
+    Interaction r;
+    r.p = interpolate(triangle, TRIANGLE_CORNERS, u, v);
+    const Vec3 face = normalize3(triangle_cross(triangle));
+    r.front = dot3(face, direction) < 0.0f;
+    r.ng = scale3(face, r.front ? 1.0f : -1.0f);
+    r.n = r.ng;
+    if (HAS_VERTEX_NORMALS) {
+        const Vec3 smooth_sum = interpolate(triangle, TRIANGLE_NORMALS, u, v);
+        const Vec3 smooth = scale3(normalize3(smooth_sum), r.front ? 1.0f : -1.0f);
+        // A shading normal that the viewer sees from behind would reflect nothing: there the face's own normal serves.
+        r.n = select3(dot3(smooth, direction) < 0.0f && dot3(smooth, r.ng) > 0.0f, smooth, r.ng);
+    }
+    r.surface.base = vec3(material->base_r, material->base_g, material->base_b);
+    if (HAS_VERTEX_COLORS) r.surface.base = mul3(r.surface.base, interpolate(triangle, TRIANGLE_COLORS, u, v));
+    r.surface.f0 = vec3(material->f0_r, material->f0_g, material->f0_b);
+    r.surface.metallic = material->metallic;
+    r.surface.specular = material->specular;
+    r.surface.alpha = material->alpha;
+    const float emits = r.front || material->double_sided ? 1.0f : 0.0f;
+    r.emission = scale3(vec3(material->emission_r, material->emission_g, material->emission_b), emits);
+    r.light = as_uint(triangle[TRIANGLE_LIGHT]);
+    return r;
+}
+
+// The start of a ray that leaves the surface on the side of the normal `ng`.
+inline Vec3 leave(const Vec3 p, const Vec3 ng) {
+    return madd3(p, ng, RAY_OFFSET);
+}

@@ -1,0 +1,48 @@
+// Emissive triangles, sampled uniformly by area (notes 5: sourceArea * visible * G * emittedRadiance).
+#pragma once
+
+#include "geometry/interaction.cl"
+#include "lights/light_choice.cl"
+#include "sampling/mis.cl"
+
+typedef struct {
+    Vec3 p;         // end of the connection; for lights at infinity far outside the scene
+    Vec3 wi;        // towards it, unit
+    Vec3 radiance;  // divided by the density: L_e / pdf_w, or intensity terms of a punctual light
+    float pdf_w;    // [1/sr] of the point, light choice included; PDF_CERTAIN: a bsdf sample cannot find this light
+} LightSample;
+
+inline LightSample area_light_sample(
+    global const float* triangles,
+    global const DeviceMaterial* materials,
+    global const DeviceLight* light,
+    const Vec3 from,
+    const Sample2 u) {
+    const int primitive = light->kind == LIGHT_TRIANGLE ? (int)light->primitive : 0;
+    global const float* triangle = triangles + TRIANGLE_FLOATS * primitive;
+    global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
+    const Sample2 b = sample_triangle(u);
+    const Vec3 face = normalize3(triangle_cross(triangle));
+    const Vec3 point = interpolate(triangle, TRIANGLE_CORNERS, b.u, b.v);
+    const Vec3 to_light = sub3(point, from);
+    const float distance2 = dot3(to_light, to_light);
+
+    LightSample s;
+    s.wi = scale3(to_light, 1.0f / sqrt(distance2));
+    const float cos_front = -dot3(s.wi, face);
+    const float cos_light = fabs(cos_front);
+    const int lit = (cos_front > 0.0f || material->double_sided) && cos_light > 0.0f && distance2 > 0.0f;
+    s.pdf_w = pdf_a_to_w(light->pmf / light->area, distance2, cos_light);
+    // The connection ends just before the light, on the side it is seen from.
+    s.p = leave(point, scale3(face, cos_front > 0.0f ? 1.0f : -1.0f));
+    s.radiance = scale3(
+        vec3(material->emission_r, material->emission_g, material->emission_b), lit ? 1.0f / s.pdf_w : 0.0f);
+    return s;
+}
+
+// pdf_w [1/sr] with which light sampling would have chosen the point that a bsdf ray met.
+inline float area_light_pdf_w(
+    global const DeviceLight* lights, const uint row, const float distance, const float cos_light) {
+    global const DeviceLight* light = lights + (row == NO_LIGHT ? 0 : (int)row);
+    return pdf_a_to_w(light->pmf / light->area, distance * distance, cos_light);
+}

@@ -1,0 +1,38 @@
+// Which random numbers a decision takes: a pair of dimensions for each, SCATTERING_PAIRS a scattering.
+#pragma once
+
+#include "shared/features.h"
+#include "sampling/sobol.cl"
+
+#define PAIR_PIXEL 0u  // position within the pixel
+#define PAIR_FIRST 1u  // of the first scattering
+
+#define PAIR_LIGHT_POINT 0u  // point on the light
+#define PAIR_DIRECTION 1u    // direction of the next ray
+#define PAIR_CHOICE 2u       // which light, which lobe
+#define PAIR_ROULETTE 3u     // survival (first of the pair)
+#define SCATTERING_PAIRS 4u
+
+// Beyond these scatterings points are independent: stratification over so many dimensions buys nothing.
+#define SOBOL_SCATTERINGS 8u
+
+// `seed` and `reversed_index`: planes ID_SEED and ID_INDEX.
+inline Bits2 dimension_pair(const uint seed, const uint reversed_index, const uint dimension, const int low) {
+    const uint pair_seed = hash_pair(seed, dimension);
+    if (!SAMPLER_SOBOL) return independent_pair(reversed_index, pair_seed);
+    const Bits2 sobol = sobol_pair(reversed_index, pair_seed);
+    const Bits2 tail = independent_pair(reversed_index, pair_seed);
+    Bits2 b;
+    b.u = low ? sobol.u : tail.u;
+    b.v = low ? sobol.v : tail.v;
+    return b;
+}
+
+// `branch`: plane ID_BRANCH, so that the children of a branch vertex differ.
+inline Bits2 scattering_pair(
+    const uint seed, const uint reversed_index, const uint branch, const uint scattering, const uint pair) {
+    const uint dimension = PAIR_FIRST + scattering * SCATTERING_PAIRS + pair;
+    return dimension_pair(
+        seed, reversed_index, HAS_SPLITS ? hash_pair(dimension, branch) : dimension,
+        scattering < SOBOL_SCATTERINGS);
+}

@@ -1,0 +1,44 @@
+// What the scene and the method need. The program that is built for a render defines each of these as 0 or 1 ahead of
+// this file; kernels test them with a plain `if`, so both branches are always parsed and the dead one is removed.
+// Here every feature is on: the full set, as `wavepath profile --full` and the linter build it.
+#ifndef WAVEPATH_FEATURES_H
+#define WAVEPATH_FEATURES_H
+
+#ifndef HAS_VERTEX_NORMALS
+#define HAS_VERTEX_NORMALS 1  // some triangle is smooth
+#endif
+#ifndef HAS_VERTEX_COLORS
+#define HAS_VERTEX_COLORS 1  // some mesh has COLOR_0
+#endif
+#ifndef HAS_SPECULAR
+#define HAS_SPECULAR 1  // some material has a microfacet or mirror lobe
+#endif
+#ifndef HAS_AREA_LIGHTS
+#define HAS_AREA_LIGHTS 1
+#endif
+#ifndef HAS_PUNCTUAL_LIGHTS
+#define HAS_PUNCTUAL_LIGHTS 1
+#endif
+#ifndef HAS_ENVIRONMENT
+#define HAS_ENVIRONMENT 1
+#endif
+#ifndef HAS_ENVIRONMENT_MAP
+#define HAS_ENVIRONMENT_MAP 1
+#endif
+#ifndef HAS_SPLITS
+#define HAS_SPLITS 1  // --splits: branch vertices are kept and resumed
+#endif
+#ifndef SAMPLE_LIGHTS
+#define SAMPLE_LIGHTS 1  // the method chooses points on lights
+#endif
+#ifndef SAMPLE_LOBES
+#define SAMPLE_LOBES 1  // directions follow the bsdf's lobes; 0: uniform in projected solid angle
+#endif
+#ifndef WEIGH_BOTH
+#define WEIGH_BOTH 1  // light and bsdf samples are joined by multiple importance sampling
+#endif
+#ifndef SAMPLER_SOBOL
+#define SAMPLER_SOBOL 1  // 0: independent points
+#endif
+
+#endif

@@ -1,0 +1,104 @@
+// The state of a path, declared once: groups of planes, one float or uint a path slot. A group is one buffer; plane k of
+// slot s is group[k * stride + s]. A group that the scene or the method does not need is not allocated.
+#ifndef WAVEPATH_PATH_H
+#define WAVEPATH_PATH_H
+
+// rays: the ray to trace, in normalised scene space
+enum RayPlane {
+    RAY_ORIGIN_X,
+    RAY_ORIGIN_Y,
+    RAY_ORIGIN_Z,
+    RAY_DIRECTION_X,  // unit
+    RAY_DIRECTION_Y,
+    RAY_DIRECTION_Z,
+    RAY_PLANES
+};
+
+// hits: where it met the scene
+enum HitPlane {
+    HIT_PRIMITIVE,  // (int bits) the triangle, or HIT_MISS or HIT_ENDED
+    HIT_T,          // distance [normalised]
+    HIT_U,          // barycentric weight of corner 1
+    HIT_V,          // of corner 2
+    HIT_PLANES
+};
+#define HIT_MISS (-1)   // it left the scene
+#define HIT_ENDED (-2)  // the path ends: absorbed, or cut
+
+// throughputs: what the path carries
+enum ThroughputPlane {
+    THROUGHPUT_R,  // product of f cos / pdf so far [1]
+    THROUGHPUT_G,
+    THROUGHPUT_B,
+    THROUGHPUT_PDF,  // pdf_w of the last direction [1/sr]; PDF_CERTAIN after the camera or a delta lobe
+    THROUGHPUT_PLANES
+};
+#define PDF_CERTAIN (-1.0f)
+
+// radiances: what the path has gathered, and the sums of its unit of work
+enum RadiancePlane {
+    RADIANCE_R,  // of the running sample
+    RADIANCE_G,
+    RADIANCE_B,
+    SUM_R,  // over the finished samples of the unit
+    SUM_G,
+    SUM_B,
+    SUM_ALBEDO_R,
+    SUM_ALBEDO_G,
+    SUM_ALBEDO_B,
+    SUM_NORMAL_X,
+    SUM_NORMAL_Y,
+    SUM_NORMAL_Z,
+    SUM_DEPTH,     // [m], over the samples that hit something
+    SUM_COVERAGE,  // samples that hit something
+    RADIANCE_PLANES
+};
+#define SUM_PLANES (RADIANCE_PLANES - SUM_R)
+
+// shadows: the pending connection to a light, at most one a slot
+enum ShadowPlane {
+    SHADOW_ORIGIN_X,
+    SHADOW_ORIGIN_Y,
+    SHADOW_ORIGIN_Z,
+    SHADOW_DIRECTION_X,  // not unit: the light lies at t = SHADOW_T_MAX
+    SHADOW_DIRECTION_Y,
+    SHADOW_DIRECTION_Z,
+    SHADOW_T_MAX,  // 0: nothing pending
+    SHADOW_R,      // radiance it brings if nothing is in the way
+    SHADOW_G,
+    SHADOW_B,
+    SHADOW_PLANES
+};
+
+// ids (uint): which sample this is
+enum IdPlane {
+    ID_CELL,        // unit of work, counted from the first of the window; where its sum goes
+    ID_PIXEL,       // y * width + x
+    ID_PASS,        // row of the sample plan, counted from the first of the window
+    ID_SAMPLE,      // of the unit
+    ID_SEED,        // hash of (seed, pixel, batch)
+    ID_INDEX,       // of the sample within its batch, bits reversed
+    ID_SCATTERING,  // scatterings so far
+    ID_NONFINITE,   // of the unit: count << 16 | first such sample + 1
+    ID_BRANCH,      // which child of its branch vertices this is; 0 without --splits
+    ID_PLANES
+};
+
+// branches: a stack of branch vertices a slot, BRANCH_PLANES planes a level (only with --splits)
+enum BranchPlane {
+    BRANCH_LEFT,  // children still to run (uint bits)
+    BRANCH_ID,    // ID_BRANCH at the vertex (uint bits)
+    BRANCH_PRIMITIVE,
+    BRANCH_U,
+    BRANCH_V,
+    BRANCH_DIRECTION_X,
+    BRANCH_DIRECTION_Y,
+    BRANCH_DIRECTION_Z,
+    BRANCH_R,  // throughput at the vertex, divided by the number of children
+    BRANCH_G,
+    BRANCH_B,
+    BRANCH_SCATTERING,  // (uint bits)
+    BRANCH_PLANES
+};
+
+#endif

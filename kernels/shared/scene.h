@@ -1,0 +1,62 @@
+// The scene as kernels see it: normalised (centre at the origin, extent 1).
+#ifndef WAVEPATH_SCENE_H
+#define WAVEPATH_SCENE_H
+
+#include "shared/cl_types.h"
+
+typedef struct {
+    shared_float base_r, base_g, base_b;  // [1] baseColorFactor
+    shared_float metallic;                // [1]
+    shared_float f0_r, f0_g, f0_b;        // [1] dielectric reflectance at normal incidence
+    shared_float specular;                // [1] weight of the dielectric's specular layer
+    shared_float emission_r, emission_g, emission_b;  // radiance
+    shared_float alpha;                   // [1] roughness^2
+    shared_uint double_sided;             // emits from both faces
+    shared_uint padding[3];
+} DeviceMaterial;
+SHARED_SIZE(DeviceMaterial, 64);
+
+// A triangle is TRIANGLE_FLOATS floats in scene order: these, then nine of normals and nine of colours if the scene has
+// any (shared/features.h).
+#define TRIANGLE_MATERIAL 0  // (uint bits)
+#define TRIANGLE_LIGHT 1     // (uint bits) row of the light table, or NO_LIGHT
+#define TRIANGLE_CORNERS 2   // 3 x (x, y, z)
+#define TRIANGLE_ATTRIBUTES 12
+#define NO_LIGHT 0xFFFFFFFFu
+
+// Kinds of a DeviceLight.
+#define LIGHT_TRIANGLE 0u
+#define LIGHT_ENVIRONMENT 1u
+#define LIGHT_POINT 2u  // and spot: a point whose cone is everything
+#define LIGHT_DIRECTIONAL 3u
+
+// One entry of the light table with its row of the alias table (Walker 1974, Vose 1991).
+typedef struct {
+    shared_float alias_threshold;  // [1] below: this light, else `alias`
+    shared_uint alias;
+    shared_float pmf;              // [1] probability to be chosen
+    shared_uint kind;
+    shared_uint primitive;         // LIGHT_TRIANGLE: its triangle
+    shared_float area;             // LIGHT_TRIANGLE: [normalised^2]
+    shared_float range;            // LIGHT_POINT: [normalised] 0: unlimited
+    shared_float spot_scale;       // LIGHT_POINT: falloff = saturate(cos * scale + offset)^2
+    shared_float spot_offset;
+    shared_float direction_x, direction_y, direction_z;  // the way it shines, unit
+    shared_float position_x, position_y, position_z;
+    shared_float intensity_r, intensity_g, intensity_b;  // [W/sr], in units of the normalised scene; directional [W/m^2]
+    shared_float padding[2];
+} DeviceLight;
+SHARED_SIZE(DeviceLight, 80);
+
+// Environment map: one entry a row (its chance to be chosen), then one a texel (its chance within the row), row by row.
+typedef struct {
+    shared_float alias_threshold;
+    shared_uint alias;
+    shared_float pmf;      // [1]
+    shared_float padding;
+    shared_float r, g, b;  // radiance
+    shared_float padding2;
+} EnvironmentEntry;
+SHARED_SIZE(EnvironmentEntry, 32);
+
+#endif

@@ -1,0 +1,71 @@
+// Starts the next sample of every slot whose path ended: of its unit, or of the unit one pool further on.
+// reads: ended queue, plan    writes: ids, rays, throughputs, radiances
+// One work-item an ended slot.
+
+#include "sampling/dimensions.cl"
+#include "sampling/vector.cl"
+#include "shared/params.h"
+#include "shared/path.h"
+#include "shared/queues.h"
+
+kernel void generate_rays(
+    constant const RenderParams* restrict params,
+    global const QueueSizes* restrict sizes,
+    global const uint* restrict ended,
+    global const PlanRow* restrict plan,
+    global uint* restrict ids,
+    global float* restrict rays,
+    global float* restrict throughputs,
+    global float* restrict radiances) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= sizes->ended) return;
+    const int slot = (int)ended[i];
+    const int stride = (int)params->stride;
+
+    // the unit and the sample
+    const uint old_cell = PLANE(ids, ID_CELL)[slot];
+    const uint old_pixel = PLANE(ids, ID_PIXEL)[slot];
+    const uint old_pass = PLANE(ids, ID_PASS)[slot];
+    const uint next_sample = PLANE(ids, ID_SAMPLE)[slot] + 1;
+    const int same_unit = next_sample < plan[(int)old_pass].samples;
+    const uint stepped = old_pixel - params->first_pixel + params->pixel_step;
+    const uint wrapped = stepped >= params->window_pixels;
+    const uint cell = same_unit ? old_cell : old_cell + params->pool;
+    if (cell >= params->cells) return;  // no work left: the slot is not in the active queue any more
+    const uint pixel = same_unit ? old_pixel : params->first_pixel + stepped - (wrapped ? params->window_pixels : 0);
+    const uint pass = same_unit ? old_pass : old_pass + params->pass_step + wrapped;
+    const uint sample = same_unit ? next_sample : 0;
+
+    const uint seed = hash_pair(hash_pair(params->seed, pixel), plan[(int)pass].batch);
+    const uint index = reverse_bits_32(plan[(int)pass].first_sample + sample);
+    PLANE(ids, ID_CELL)[slot] = cell;
+    PLANE(ids, ID_PIXEL)[slot] = pixel;
+    PLANE(ids, ID_PASS)[slot] = pass;
+    PLANE(ids, ID_SAMPLE)[slot] = sample;
+    PLANE(ids, ID_SEED)[slot] = seed;
+    PLANE(ids, ID_INDEX)[slot] = index;
+    PLANE(ids, ID_SCATTERING)[slot] = 0;
+    if (HAS_SPLITS) PLANE(ids, ID_BRANCH)[slot] = 0;
+
+    // the ray through a point of the pixel, uniform: one box filter
+    const Sample2 jitter = unit_pair(dimension_pair(seed, index, PAIR_PIXEL, 1));
+    // exact below 2^24 pixels a side; a float quotient may be off by one, hence the correction
+    const uint width = params->width;
+    const uint guess = (uint)((float)pixel / (float)width);
+    const uint below = guess * width > pixel ? guess - 1 : guess;
+    const uint row = pixel - below * width >= width ? below + 1 : below;
+    const float x = (float)(pixel - row * width) + jitter.u;
+    const float y = (float)row + jitter.v;
+    const Vec3 corner = vec3(params->corner_x, params->corner_y, params->corner_z);
+    const Vec3 right = vec3(params->right_x, params->right_y, params->right_z);
+    const Vec3 down = vec3(params->down_x, params->down_y, params->down_z);
+    const Vec3 camera = vec3(params->camera_x, params->camera_y, params->camera_z);
+    const Vec3 film = madd3(madd3(corner, right, x), down, y);
+    const int orthographic = params->orthographic != 0;
+    store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, select3(orthographic, film, camera));
+    store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, select3(orthographic, camera, normalize3(film)));
+
+    store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, vec3(1.0f, 1.0f, 1.0f));
+    PLANE(throughputs, THROUGHPUT_PDF)[slot] = PDF_CERTAIN;
+    store3(PLANE(radiances, RADIANCE_R), stride, slot, vec3(0.0f, 0.0f, 0.0f));
+}

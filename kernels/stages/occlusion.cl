@@ -1,0 +1,31 @@
+// Traces the pending connections and adds what arrives.
+// reads: queue, shadows, bvh    writes: radiances
+// One work-item an active path.
+
+#include "geometry/bvh.cl"
+#include "sampling/vector.cl"
+#include "shared/features.h"
+#include "shared/params.h"
+#include "shared/path.h"
+#include "shared/queues.h"
+
+kernel void occlusion(
+    constant const RenderParams* restrict params,
+    global const QueueSizes* restrict sizes,
+    global const uint* restrict queue,
+    global const BvhNode* restrict nodes,
+    global const TriangleBlock* restrict blocks,
+    global const float* restrict shadows,
+    global float* restrict radiances) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= sizes->active) return;
+    const int slot = (int)queue[i];
+    const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
+    if (t_max <= 0.0f) return;
+    const int blocked = any_hit(
+        nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot], PLANE(shadows, SHADOW_ORIGIN_Y)[slot],
+        PLANE(shadows, SHADOW_ORIGIN_Z)[slot], PLANE(shadows, SHADOW_DIRECTION_X)[slot],
+        PLANE(shadows, SHADOW_DIRECTION_Y)[slot], PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max);
+    if (blocked) return;
+    for (int k = 0; k < 3; ++k) PLANE(radiances, RADIANCE_R + k)[slot] += PLANE(shadows, SHADOW_R + k)[slot];
+}

@@ -1,0 +1,60 @@
+#include "film/atomic_file.h"
+
+#include "error.h"
+
+#include <cerrno>
+#include <cstring>
+#include <random>
+#include <system_error>
+
+namespace wavepath {
+namespace fs = std::filesystem;
+
+AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
+    std::error_code failure;
+    const fs::file_status status = fs::status(path, failure);
+    // Too long, a loop of links, a folder that must not be searched.
+    if (status.type() == fs::file_type::none) {
+        throw Error(
+            "{}: cannot be written: {}; choose another name", path.string(), failure.message());
+    }
+    if (!path.has_filename() || (fs::exists(status) && !fs::is_regular_file(status))) {
+        throw Error(
+            "\"{}\": is not the name of a file; name one, such as image.exr", path.string());
+    }
+    if (fs::exists(status)) path_ = fs::canonical(path);  // replace the file, not a link to it
+
+    // A name of its own length: the file's may be as long as the file system permits.
+    const fs::path folder = path_.has_parent_path() ? path_.parent_path() : ".";
+    std::random_device random;
+    do {
+        temporary_ = folder / fmt::format("wavepath-{:08x}.tmp", random());
+        file_.reset(std::fopen(temporary_.c_str(), "wbx"));
+    } while (!file_ && errno == EEXIST);
+    if (!file_) {
+        temporary_.clear();
+        throw Error(
+            "{}: cannot be written: folder {}: {}; create it or choose another", path.string(),
+            folder.string(), std::strerror(errno));
+    }
+}
+
+AtomicFile::~AtomicFile() {
+    std::error_code ignored;  // there is no one left to tell
+    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::commit(std::string_view bytes) {
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size();
+    const bool closed = std::fclose(file_.release()) == 0;  // flushes what fwrite kept
+    std::error_code failure(written && closed ? 0 : errno, std::generic_category());
+    if (!failure) fs::rename(temporary_, path_, failure);
+    if (failure) {
+        throw Error(
+            "{}: cannot be written: {}; check space and rights in its folder or choose another",
+            path_.string(), failure.message());
+    }
+    temporary_.clear();
+}
+
+}  // namespace wavepath

@@ -1,0 +1,44 @@
+// Time and items of every kernel, from OpenCL events.
+#pragma once
+
+#include "device/opencl.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace wavepath {
+
+struct ProfileRow {
+    std::string name;      // of the kernel
+    uint64_t launches = 0;
+    uint64_t items = 0;
+    double seconds = 0;    // between start and end on the device
+};
+
+class Profile {
+  public:
+    // The row of this name, made if there is none.
+    std::size_t row(const std::string& name);
+    void add(std::size_t row, uint64_t items, const cl::Event& event);
+
+    // Reads the times of launches that have finished; to be called after a blocking read. Where the driver returns
+    // zeros, `device_clock` turns false and times stay 0.
+    void collect();
+
+    const std::vector<ProfileRow>& rows() const { return rows_; }
+    bool device_clock() const { return device_clock_; }
+    double kernel_seconds() const;
+
+  private:
+    struct Launch {
+        std::size_t row;
+        cl::Event event;
+    };
+
+    std::vector<ProfileRow> rows_;
+    std::vector<Launch> pending_;
+    bool device_clock_ = true;
+};
+
+}  // namespace wavepath

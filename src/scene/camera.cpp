@@ -1,0 +1,98 @@
+#include "scene/camera.h"
+
+#include "error.h"
+#include "scene/transform.h"
+
+#include <cmath>
+#include <fmt/ranges.h>
+#include <numbers>
+
+namespace wavepath {
+
+namespace {
+
+Vec3d minus(const Vec3d& a, const Vec3d& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+Vec3d times(const Vec3d& a, double s) {
+    return {a[0] * s, a[1] * s, a[2] * s};
+}
+
+Vec3d plus(const Vec3d& a, const Vec3d& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+double length(const Vec3d& a) {
+    return std::hypot(a[0], a[1], a[2]);
+}
+
+Camera overview(const NormalisedScene& geometry) {
+    constexpr double y_fov = std::numbers::pi / 4;
+    // the bounding sphere of the unit cube around the origin fits the field of view
+    const double distance = geometry.metres * 0.8660254037844386 / std::sin(y_fov / 2);
+    const Vec3d towards_eye = normalized({0.25, 0.35, 1.0});
+    return look_at(plus(geometry.centre, times(towards_eye, distance)), geometry.centre, y_fov);
+}
+
+void store(float& x, float& y, float& z, const Vec3d& v) {
+    x = static_cast<float>(v[0]);
+    y = static_cast<float>(v[1]);
+    z = static_cast<float>(v[2]);
+}
+
+}  // namespace
+
+Camera look_at(const Vec3d& eye, const Vec3d& target, double y_fov) {
+    const Vec3d back = minus(eye, target);
+    if (!(length(back) > 0)) throw Error("--look-at: eye and target are the same point; move one of them");
+    const Vec3d z = normalized(back);
+    const Vec3d up = std::hypot(z[0], z[2]) > 1e-6 ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
+    const Vec3d x = normalized(cross(up, z));
+    const Vec3d y = cross(z, x);
+    Camera camera;
+    camera.name = "look-at";
+    camera.y_fov = y_fov;
+    camera.to_world = {x[0], x[1], x[2], 0, y[0], y[1], y[2], 0, z[0], z[1], z[2], 0, eye[0], eye[1], eye[2], 1};
+    return camera;
+}
+
+Camera choose_camera(const Scene& scene, const NormalisedScene& geometry, const std::string& selector) {
+    if (selector.empty() && scene.cameras.empty()) {
+        Camera camera = overview(geometry);
+        camera.name = "overview";
+        return camera;
+    }
+    if (selector.empty()) return scene.cameras.front();
+    std::vector<std::string> names;
+    for (const Camera& camera : scene.cameras) {
+        if (camera.name == selector) return camera;
+        names.push_back(camera.name);
+    }
+    const bool is_number = selector.find_first_not_of("0123456789") == std::string::npos && selector.size() < 9;
+    if (is_number && std::stoul(selector) < scene.cameras.size()) return scene.cameras[std::stoul(selector)];
+    throw Error(
+        "--camera {}: {} has {} camera(s){}{}; name one of them by index or name, or use --look-at", selector, scene.name,
+        scene.cameras.size(), names.empty() ? "" : ": ", fmt::join(names, ", "));
+}
+
+void set_camera(RenderParams& params, const Camera& camera, const NormalisedScene& geometry, uint32_t width, uint32_t height) {
+    const Vec3d x = normalized(axis(camera.to_world, 0));
+    const Vec3d y = normalized(axis(camera.to_world, 1));
+    const Vec3d forward = times(normalized(axis(camera.to_world, 2)), -1);
+    const Vec3d eye = geometry.to_normalised(axis(camera.to_world, 3));
+    const double half_height = camera.orthographic ? camera.y_mag / geometry.metres : std::tan(camera.y_fov / 2);
+    const double pixel = 2 * half_height / height;
+    const Vec3d to_corner = plus(times(x, -0.5 * pixel * width), times(y, half_height));
+    const Vec3d corner = plus(to_corner, camera.orthographic ? eye : forward);
+    store(params.camera_x, params.camera_y, params.camera_z, camera.orthographic ? forward : eye);
+    store(params.corner_x, params.corner_y, params.corner_z, corner);
+    store(params.right_x, params.right_y, params.right_z, times(x, pixel));
+    store(params.down_x, params.down_y, params.down_z, times(y, -pixel));
+    params.orthographic = camera.orthographic ? 1 : 0;
+    params.metres = static_cast<float>(geometry.metres);
+    params.width = width;
+    params.height = height;
+}
+
+}  // namespace wavepath

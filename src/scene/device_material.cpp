@@ -1,0 +1,39 @@
+#include "scene/device_material.h"
+
+#include <algorithm>
+
+namespace wavepath {
+
+namespace {
+
+float dielectric_f0(const Material& material, std::size_t channel) {
+    if (material.ior == 0) return 1;
+    const float ratio = (material.ior - 1) / (material.ior + 1);
+    return std::min(ratio * ratio * material.specular_color[channel], 1.0F);
+}
+
+}  // namespace
+
+DeviceMaterial device_material(const Material& material) {
+    DeviceMaterial d{};
+    d.base_r = material.base_color[0];
+    d.base_g = material.base_color[1];
+    d.base_b = material.base_color[2];
+    d.metallic = material.metallic;
+    d.f0_r = dielectric_f0(material, 0);
+    d.f0_g = dielectric_f0(material, 1);
+    d.f0_b = dielectric_f0(material, 2);
+    d.specular = material.specular;
+    d.emission_r = material.emission[0];
+    d.emission_g = material.emission[1];
+    d.emission_b = material.emission[2];
+    d.alpha = material.roughness * material.roughness;
+    d.double_sided = material.double_sided ? 1 : 0;
+    return d;
+}
+
+bool reflects_specularly(const Material& material) {
+    return material.metallic > 0 || material.specular > 0;
+}
+
+}  // namespace wavepath

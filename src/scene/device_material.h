@@ -1,0 +1,14 @@
+#pragma once
+
+#include "scene/scene.h"
+#include "shared/scene.h"
+
+namespace wavepath {
+
+// F0 of the dielectric: min(((ior - 1) / (ior + 1))^2 * specularColor, 1); 1 for ior 0 (KHR_materials_ior, _specular).
+DeviceMaterial device_material(const Material& material);
+
+// Whether it has a lobe besides the Lambertian.
+bool reflects_specularly(const Material& material);
+
+}  // namespace wavepath

@@ -1,0 +1,240 @@
+#include "scene/gltf_accessor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace wavepath {
+namespace {
+
+// Equally spaced rows inside a buffer view, already checked to lie there.
+struct Rows {
+    const unsigned char* first = nullptr;
+    std::size_t stride = 0;  // [byte]
+
+    const unsigned char* operator[](std::size_t row) const { return first + row * stride; }
+};
+
+template <typename T>
+T load(const unsigned char* bytes) {
+    T value;  // the file need not be aligned
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+}
+
+// The most negative integer is clamped to -1 [KHR_mesh_quantization].
+template <typename T>
+float load_number(const unsigned char* bytes, bool normalized) {
+    const auto value = static_cast<float>(load<T>(bytes));
+    return normalized ? std::max(value / static_cast<float>(std::numeric_limits<T>::max()), -1.0F)
+                      : value;
+}
+
+float load_float(const unsigned char* bytes, int component_type, bool normalized) {
+    switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return load_number<std::int8_t>(bytes, normalized);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return load_number<std::uint8_t>(bytes, normalized);
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return load_number<std::int16_t>(bytes, normalized);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return load_number<std::uint16_t>(bytes, normalized);
+        default:
+            return load<float>(bytes);
+    }
+}
+
+bool is_vertex_component(int type) {
+    return (type >= TINYGLTF_COMPONENT_TYPE_BYTE &&
+            type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) ||
+           type == TINYGLTF_COMPONENT_TYPE_FLOAT;
+}
+
+std::uint32_t load_index(const unsigned char* bytes, int component_type) {
+    switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return load<std::uint8_t>(bytes);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return load<std::uint16_t>(bytes);
+        default:
+            return load<std::uint32_t>(bytes);
+    }
+}
+
+bool is_index_component(int type) {
+    return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+std::uint32_t restart_value(int component_type) {
+    switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 0xFF;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 0xFFFF;
+        default:
+            return 0xFFFFFFFF;
+    }
+}
+
+std::size_t component_size(int type) {
+    return static_cast<std::size_t>(
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type)));
+}
+
+// `count` > 0 rows of `row_size` bytes from `byte_offset` on. Every comparison is written so that
+// no sum can overflow.
+Rows find_rows(
+    const GltfFile& file,
+    int view_index,
+    std::size_t byte_offset,
+    std::size_t count,
+    std::size_t row_size,
+    std::string_view where) {
+    const auto& view = file.at(file.model.bufferViews, view_index, "bufferView", where);
+    const std::string view_label = label("bufferView", view_index, view.name);
+    const auto& data = file.at(file.model.buffers, view.buffer, "buffer", view_label).data;
+    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
+        file.fail(
+            view_label,
+            "ends after its buffer of {} bytes; the file is cut short or wrong, export again",
+            data.size());
+
+    const std::size_t stride = view.byteStride == 0 ? row_size : view.byteStride;
+    if (stride < row_size)
+        file.fail(
+            view_label,
+            "byteStride {} is less than the {} bytes of a row; repair it or export again", stride,
+            row_size);
+    if (byte_offset > view.byteLength || row_size > view.byteLength - byte_offset ||
+        count - 1 > (view.byteLength - byte_offset - row_size) / stride)
+        file.fail(
+            where,
+            "{} rows from byte {} end after bufferView {} of {} bytes; repair the count or export "
+            "again",
+            count, byte_offset, view_index, view.byteLength);
+    return {data.data() + view.byteOffset + byte_offset, stride};
+}
+
+std::size_t checked_sparse_offset(const GltfFile& file, int byte_offset, std::string_view where) {
+    if (byte_offset < 0)
+        file.fail(where, "sparse byteOffset {} is negative; export again", byte_offset);
+    return static_cast<std::size_t>(byte_offset);
+}
+
+// Hands the rows of `accessor` to `store(row, bytes)`, then those that its sparse part replaces.
+template <typename Store>
+void for_each_row(
+    const GltfFile& file,
+    const tinygltf::Accessor& accessor,
+    std::size_t row_size,
+    std::string_view where,
+    const Store& store) {
+    if (accessor.bufferView >= 0) {
+        const Rows rows = find_rows(
+            file, accessor.bufferView, accessor.byteOffset, accessor.count, row_size, where);
+        for (std::size_t row = 0; row < accessor.count; ++row) store(row, rows[row]);
+    }
+    if (!accessor.sparse.isSparse) return;
+
+    const auto& [count, is_sparse, indices, values] = accessor.sparse;
+    if (count < 1 || static_cast<std::size_t>(count) > accessor.count)
+        file.fail(
+            where, "sparse count {} is not in 1 .. {}; repair it or export again", count,
+            accessor.count);
+    if (!is_index_component(indices.componentType))
+        file.fail(
+            where, "sparse indices have component type {}; export as UNSIGNED_BYTE, _SHORT or _INT",
+            indices.componentType);
+    const auto replaced = static_cast<std::size_t>(count);
+    const Rows targets = find_rows(
+        file, indices.bufferView, checked_sparse_offset(file, indices.byteOffset, where), replaced,
+        component_size(indices.componentType), where);
+    const Rows rows = find_rows(
+        file, values.bufferView, checked_sparse_offset(file, values.byteOffset, where), replaced,
+        row_size, where);
+    for (std::size_t i = 0; i < replaced; ++i) {
+        const std::uint32_t target = load_index(targets[i], indices.componentType);
+        if (target >= accessor.count)
+            file.fail(
+                where, "sparse index {} is not below the count {}; repair it or export again",
+                target, accessor.count);
+        store(target, rows[i]);
+    }
+}
+
+// Rows that no buffer view holds are zero: the only place where the file's size does not bound
+// their number.
+void check_count(const GltfFile& file, const tinygltf::Accessor& accessor, std::string_view where) {
+    constexpr std::size_t most_unbacked = std::size_t{1} << 24;
+    if (accessor.count == 0) file.fail(where, "holds no rows; remove it or export again");
+    if (accessor.bufferView < 0 && accessor.count > most_unbacked)
+        file.fail(
+            where, "{} rows without a bufferView are more than the {} allowed; export again",
+            accessor.count, most_unbacked);
+}
+
+}  // namespace
+
+std::vector<float> read_vec3(const GltfFile& file, int accessor_index, std::string_view where) {
+    const auto& accessor = file.at(file.model.accessors, accessor_index, "accessor", where);
+    if (accessor.type != TINYGLTF_TYPE_VEC3 && accessor.type != TINYGLTF_TYPE_VEC4)
+        file.fail(where, "accessor {} is no vector of 3; export again", accessor_index);
+    if (!is_vertex_component(accessor.componentType))
+        file.fail(
+            where,
+            "accessor {} has component type {}; export as FLOAT, or as (UNSIGNED_)BYTE or _SHORT",
+            accessor_index, accessor.componentType);
+    check_count(file, accessor, where);
+
+    std::vector<float> values(3 * accessor.count);
+    const std::size_t size = component_size(accessor.componentType);
+    const std::size_t row_size = size * (accessor.type == TINYGLTF_TYPE_VEC3 ? 3 : 4);
+    for_each_row(file, accessor, row_size, where, [&](std::size_t row, const unsigned char* bytes) {
+        for (std::size_t i = 0; i < 3; ++i)
+            values[3 * row + i] =
+                load_float(bytes + i * size, accessor.componentType, accessor.normalized);
+    });
+
+    const auto broken =
+        std::ranges::find_if_not(values, [](float value) { return std::isfinite(value); });
+    if (broken != values.end())
+        file.fail(
+            where, "row {} is not finite; repair the mesh and export again",
+            (broken - values.begin()) / 3);
+    return values;
+}
+
+std::vector<std::uint32_t> read_indices(
+    const GltfFile& file, int accessor_index, std::size_t vertex_count, std::string_view where) {
+    const auto& accessor = file.at(file.model.accessors, accessor_index, "accessor", where);
+    if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_index_component(accessor.componentType))
+        file.fail(
+            where, "accessor {} is no SCALAR of UNSIGNED_BYTE, _SHORT or _INT; export again",
+            accessor_index);
+    check_count(file, accessor, where);
+
+    std::vector<std::uint32_t> indices(accessor.count);
+    for_each_row(
+        file, accessor, component_size(accessor.componentType), where,
+        [&](std::size_t row, const unsigned char* bytes) {
+            indices[row] = load_index(bytes, accessor.componentType);
+        });
+
+    const std::uint32_t restart = restart_value(accessor.componentType);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (indices[i] == restart)
+            file.fail(where, "index {} is the primitive restart value; split the primitive", i);
+        if (indices[i] >= vertex_count)
+            file.fail(
+                where,
+                "index {} is {}, but there are {} vertices; repair the mesh and export again", i,
+                indices[i], vertex_count);
+    }
+    return indices;
+}
+
+}  // namespace wavepath

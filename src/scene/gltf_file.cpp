@@ -1,0 +1,254 @@
+#include "scene/gltf_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace wavepath {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Sorted.
+constexpr std::array<std::string_view, 5> supported_extensions{
+    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_mesh_quantization"};
+
+constexpr std::size_t glb_header_size =
+    20;  // magic, version, length; length and type of the JSON chunk
+
+std::vector<unsigned char> read_bytes(const fs::path& path) {
+    std::error_code status;
+    if (!fs::exists(path, status)) throw Error("{}: no such file; check the path", path.string());
+    if (!fs::is_regular_file(path, status))
+        throw Error("{}: is not a regular file; name a .gltf or .glb file", path.string());
+    std::ifstream stream(path, std::ios::binary);
+    std::vector<unsigned char> bytes(static_cast<std::size_t>(fs::file_size(path, status)));
+    if (!stream.read(
+            reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+        throw Error("{}: cannot be read; check its permissions", path.string());
+    return bytes;
+}
+
+bool is_binary(std::span<const unsigned char> bytes) {
+    return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
+std::uint32_t word_at(std::span<const unsigned char> bytes, std::size_t offset) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes.data() + offset, sizeof word);
+    return word;
+}
+
+// tinygltf has one text for all that can be wrong here.
+void check_glb_header(std::span<const unsigned char> bytes, const std::string& name) {
+    if (bytes.size() >= 8 && word_at(bytes, 4) != 2)
+        throw Error("{}: is binary glTF version {}; export as glTF 2.0", name, word_at(bytes, 4));
+    if (bytes.size() < glb_header_size || bytes.size() < word_at(bytes, 8) ||
+        bytes.size() - glb_header_size < word_at(bytes, 12))
+        throw Error("{}: is cut short or gives a wrong length; copy or export it again", name);
+}
+
+std::string_view json_text(std::span<const unsigned char> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return is_binary(bytes) ? text.substr(glb_header_size, word_at(bytes, 12)) : text;
+}
+
+bool starts_like_json(std::span<const unsigned char> bytes) {
+    const std::string_view text = json_text(bytes);
+    const std::size_t start =
+        text.find_first_not_of("\xEF\xBB\xBF \t\r\n");  // after a byte order mark
+    return start != text.npos && text[start] == '{';
+}
+
+// tinygltf turns nesting in `extras` into recursion: 100 kB of brackets would overflow the stack.
+bool is_nested_deeper_than(std::string_view json, int limit) {
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            in_string = c != '"';
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '[' || c == '{') {
+            if (++depth > limit) return true;
+        } else if (c == ']' || c == '}') {
+            --depth;
+        }
+    }
+    return false;
+}
+
+// tinygltf looks for files in the working directory too, as "./name": what is rendered must not
+// depend on it.
+bool is_file_beside_scene(const std::string& path, void*) {
+    std::error_code status;
+    return fs::path(path).is_absolute() && fs::is_regular_file(path, status);
+}
+
+// tinygltf decodes every image while it parses and gives the whole file up for one it cannot
+// decode.
+bool leave_image_encoded(
+    tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+    return true;
+}
+
+// What tinygltf holds against the file; empty: nothing. It also reports errors while it claims
+// success.
+std::string parse(
+    std::span<const unsigned char> bytes, const fs::path& folder, tinygltf::Model& model) {
+    tinygltf::TinyGLTF parser;
+    parser.SetImageLoader(leave_image_encoded, nullptr);
+    parser.SetFsCallbacks(
+        {is_file_beside_scene, tinygltf::ExpandFilePath, tinygltf::ReadWholeFile,
+         tinygltf::WriteWholeFile, nullptr});
+    const auto size = static_cast<unsigned int>(bytes.size());
+    std::string error, warning;
+    try {
+        const bool parsed =
+            is_binary(bytes)
+                ? parser.LoadBinaryFromMemory(
+                      &model, &error, &warning, bytes.data(), size, folder.string())
+                : parser.LoadASCIIFromString(
+                      &model, &error, &warning, reinterpret_cast<const char*>(bytes.data()), size,
+                      folder.string());
+        if (!parsed && error.empty()) error = "it cannot be parsed";
+    } catch (const std::exception& exception) {
+        error = fmt::format("it cannot be parsed ({})", exception.what());
+    }
+    return error;
+}
+
+struct Version {
+    int major_number = 0;
+    int minor_number = 0;
+    auto operator<=>(const Version&) const = default;
+};
+
+std::optional<Version> parse_version(const std::string& text) {
+    Version version;
+    const char* const end = text.data() + text.size();
+    const auto [dot, major_error] = std::from_chars(text.data(), end, version.major_number);
+    if (major_error != std::errc{} || dot == end || *dot != '.') return std::nullopt;
+    const auto [rest, minor_error] = std::from_chars(dot + 1, end, version.minor_number);
+    if (minor_error != std::errc{} || rest != end) return std::nullopt;
+    return version;
+}
+
+// A newer minor version stays readable unless minVersion says otherwise [glTF 2.0, section 3.2].
+void check_version(const GltfFile& file) {
+    const tinygltf::Asset& asset = file.model.asset;
+    const auto version = parse_version(asset.version);
+    if (!version || version->major_number != 2)
+        file.fail(
+            "asset", "version \"{}\" is not supported; export as glTF 2.0",
+            one_line(asset.version));
+    if (asset.minVersion.empty()) return;
+    const auto needed = parse_version(asset.minVersion);
+    if (!needed || *needed > Version{2, 0})
+        file.fail(
+            "asset", "minVersion \"{}\" asks for more than glTF 2.0; export as glTF 2.0",
+            one_line(asset.minVersion));
+}
+
+void check_required_extensions(const GltfFile& file) {
+    for (const std::string& extension : file.model.extensionsRequired)
+        if (!is_supported_extension(extension))
+            file.fail(
+                "extensionsRequired", "{} is not supported; export without it",
+                one_line(extension));
+}
+
+}  // namespace
+
+GltfFile read_gltf_file(const fs::path& path) {
+    constexpr int max_nesting = 256;
+    const std::vector<unsigned char> bytes = read_bytes(path);
+    GltfFile file{path.filename().string(), {}};
+    if (bytes.size() > std::numeric_limits<unsigned int>::max())
+        throw Error(
+            "{}: is larger than 4 GiB; keep buffers in .bin files beside a .gltf", file.name);
+    if (is_binary(bytes)) check_glb_header(bytes, file.name);
+    if (!starts_like_json(bytes))
+        throw Error("{}: is not glTF; export the scene as .gltf or .glb", file.name);
+    if (is_nested_deeper_than(json_text(bytes), max_nesting))
+        throw Error(
+            "{}: JSON is nested deeper than {} levels; export again", file.name, max_nesting);
+
+    const std::string error = parse(bytes, fs::absolute(path).parent_path(), file.model);
+    // Version and extensions are known even after a failure, and often its reason: they speak
+    // first.
+    check_version(file);
+    check_required_extensions(file);
+    if (!error.empty())
+        throw Error(
+            "{}: not valid glTF: {}; repair the file or export again", file.name, one_line(error));
+    return file;
+}
+
+bool is_supported_extension(std::string_view name) {
+    return std::ranges::binary_search(supported_extensions, name);
+}
+
+std::string label(std::string_view kind, int index, const std::string& name) {
+    return name.empty() ? fmt::format("{} {}", kind, index)
+                        : fmt::format("{} {} \"{}\"", kind, index, one_line(name));
+}
+
+std::string one_line(std::string text) {
+    constexpr std::size_t longest = 200;
+    while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+    if (text.size() > longest) {
+        std::size_t cut = longest;
+        while ((text[cut] & 0xC0) == 0x80) --cut;  // not inside a UTF-8 sequence
+        text.replace(cut, text.npos, "...");
+    }
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
+    return text;
+}
+
+const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {
+    const auto found = extensions.find(name);
+    return found == extensions.end() ? nullptr : &found->second;
+}
+
+double number(
+    const GltfFile& file,
+    std::string_view where,
+    const tinygltf::Value& object,
+    const char* key,
+    double missing) {
+    if (!object.Has(key)) return missing;
+    const tinygltf::Value& value = object.Get(key);
+    if (!value.IsNumber()) file.fail(where, "{} is not a number; repair it or export again", key);
+    return value.GetNumberAsDouble();
+}
+
+std::vector<double> numbers(
+    const GltfFile& file,
+    std::string_view where,
+    const tinygltf::Value& object,
+    const char* key,
+    const std::vector<double>& missing) {
+    if (!object.Has(key)) return missing;
+    const tinygltf::Value& array = object.Get(key);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < array.ArrayLen(); ++i) {
+        const tinygltf::Value& value = array.Get(static_cast<int>(i));
+        if (!value.IsNumber())
+            file.fail(where, "{} holds what is no number; repair it or export again", key);
+        values.push_back(value.GetNumberAsDouble());
+    }
+    return values;
+}
+
+}  // namespace wavepath

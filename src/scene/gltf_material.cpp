@@ -1,0 +1,99 @@
+#include "scene/gltf_material.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace wavepath {
+namespace {
+
+// Factors that were rounded to float on their way into the file may pass the ends of their range by
+// this much.
+constexpr double rounding = 1e-6;
+constexpr double unbounded = std::numeric_limits<float>::max();
+
+class MaterialReader {
+  public:
+    MaterialReader(const GltfFile& file, int index)
+        : file_(file),
+          source_(file.model.materials[static_cast<std::size_t>(index)]),
+          where_(label("material", index, source_.name)) {}
+
+    Material read() const {
+        const auto& pbr = source_.pbrMetallicRoughness;
+        Material material;
+        material.name = source_.name;
+        material.base_color = color("baseColorFactor", pbr.baseColorFactor, 1);
+        material.metallic = factor("metallicFactor", pbr.metallicFactor, 1);
+        material.roughness = factor("roughnessFactor", pbr.roughnessFactor, 1);
+        material.double_sided = source_.doubleSided;
+        read_emission(material);
+        read_ior(material);
+        read_specular(material);
+        return material;
+    }
+
+  private:
+    float factor(const char* name, double value, double most, double least = 0) const {
+        if (!(value >= least - rounding && value <= most + rounding)) {
+            if (most == unbounded)
+                file_.fail(
+                    where_, "{} is {}, less than {}; repair the material", name, value, least);
+            file_.fail(
+                where_, "{} is {}, not in {} .. {}; repair the material", name, value, least, most);
+        }
+        return static_cast<float>(std::clamp(value, least, most));
+    }
+
+    Rgb color(const char* name, const std::vector<double>& values, double most) const {
+        if (values.size() < 3)
+            file_.fail(
+                where_, "{} has {} numbers instead of 3; repair the material", name, values.size());
+        return {
+            factor(name, values[0], most), factor(name, values[1], most),
+            factor(name, values[2], most)};
+    }
+
+    // glTF bounds emissiveFactor by 1, many files do not, and nothing here depends on it.
+    void read_emission(Material& material) const {
+        double strength = 1;
+        if (const auto* extension =
+                find_extension(source_.extensions, "KHR_materials_emissive_strength"))
+            strength = number(file_, where_, *extension, "emissiveStrength", 1);
+        std::vector<double> radiance = source_.emissiveFactor;
+        for (double& channel : radiance) channel *= strength;
+        material.emission = color("emissiveFactor * emissiveStrength", radiance, unbounded);
+    }
+
+    void read_ior(Material& material) const {
+        const auto* extension = find_extension(source_.extensions, "KHR_materials_ior");
+        if (!extension) return;
+        const double ior = number(file_, where_, *extension, "ior", 1.5);
+        material.ior = ior == 0 ? 0 : factor("ior", ior, unbounded, 1);
+    }
+
+    void read_specular(Material& material) const {
+        const auto* extension = find_extension(source_.extensions, "KHR_materials_specular");
+        if (!extension) return;
+        material.specular =
+            factor("specularFactor", number(file_, where_, *extension, "specularFactor", 1), 1);
+        material.specular_color = color(
+            "specularColorFactor",
+            numbers(file_, where_, *extension, "specularColorFactor", {1, 1, 1}), unbounded);
+    }
+
+    const GltfFile& file_;
+    const tinygltf::Material& source_;
+    std::string where_;
+};
+
+}  // namespace
+
+std::vector<Material> read_materials(const GltfFile& file) {
+    std::vector<Material> materials;
+    for (std::size_t i = 0; i < file.model.materials.size(); ++i)
+        materials.push_back(MaterialReader(file, static_cast<int>(i)).read());
+    materials.push_back({.name = "default"});
+    return materials;
+}
+
+}  // namespace wavepath

@@ -1,0 +1,17 @@
+// Mesh primitives as triangle lists.
+#pragma once
+
+#include "scene/gltf_file.h"
+#include "scene/gltf_ignored.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace wavepath {
+
+// The primitives of mesh `index` that hold triangles, in order; points and lines are noted in
+// `ignored`. `default_material`: index of the material of primitives that name none.
+std::vector<Primitive> read_mesh(
+    const GltfFile& file, int index, std::uint32_t default_material, Ignored& ignored);
+
+}  // namespace wavepath

@@ -1,0 +1,144 @@
+#include "scene/normalise.h"
+
+#include "error.h"
+#include "scene/transform.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace wavepath {
+
+namespace {
+
+// Twice the least area that counts: the square of a smaller normal leaves single precision.
+constexpr double smallest_cross = 1e-18;
+
+double dot(const Vec3d& a, const Vec3d& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+struct Bounds {
+    Vec3d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+              std::numeric_limits<double>::infinity()};
+    Vec3d high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+               -std::numeric_limits<double>::infinity()};
+
+    void extend(const Vec3d& p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+};
+
+Vec3d transform_point(const Matrix4& m, const Vec3d& p) {
+    Vec3d r;
+    for (std::size_t k = 0; k < 3; ++k) r[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
+    return r;
+}
+
+// By the cofactors: the inverse transpose up to a factor, which also serves flattened nodes. The factor's sign is the
+// determinant's.
+Vec3d transform_normal(const Matrix4& m, const Vec3d& n) {
+    const Vec3d columns[3] = {cross(axis(m, 1), axis(m, 2)), cross(axis(m, 2), axis(m, 0)), cross(axis(m, 0), axis(m, 1))};
+    const double sign = dot(axis(m, 0), columns[0]) < 0 ? -1 : 1;
+    Vec3d r{0, 0, 0};
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < 3; ++k) r[k] += sign * n[c] * columns[c][k];
+    return normalized(r);
+}
+
+Vec3d vertex(const std::vector<float>& values, uint32_t index) {
+    return {values[3U * index], values[3U * index + 1], values[3U * index + 2]};
+}
+
+Bounds world_bounds(const Scene& scene) {
+    Bounds bounds;
+    for (const Instance& instance : scene.instances) {
+        const Primitive& primitive = scene.primitives[instance.primitive];
+        for (const uint32_t index : primitive.indices)
+            bounds.extend(transform_point(instance.to_world, vertex(primitive.positions, index)));
+    }
+    return bounds;
+}
+
+// Its length is twice the triangle's area.
+Vec3d face_cross(const std::array<Vec3d, 3>& p) {
+    const Vec3d u{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
+    const Vec3d v{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
+    return cross(u, v);
+}
+
+void append(std::vector<float>& to, const Vec3d& v) {
+    for (const double x : v) to.push_back(static_cast<float>(x));
+}
+
+// Adds the triangles of one instance; corners are rounded to float first, as the device will see them.
+void append_instance(NormalisedScene& out, const Primitive& primitive, const Matrix4& to_world, bool normals, bool colors) {
+    const bool mirrored = dot(axis(to_world, 0), cross(axis(to_world, 1), axis(to_world, 2))) < 0;
+    for (std::size_t t = 0; t + 2 < primitive.indices.size(); t += 3) {
+        std::array<uint32_t, 3> corners{primitive.indices[t], primitive.indices[t + 1], primitive.indices[t + 2]};
+        if (mirrored) std::swap(corners[1], corners[2]);
+        std::array<Vec3d, 3> p;
+        for (std::size_t c = 0; c < 3; ++c) {
+            p[c] = out.to_normalised(transform_point(to_world, vertex(primitive.positions, corners[c])));
+            for (double& x : p[c]) x = static_cast<float>(x);
+        }
+        const Vec3d face = face_cross(p);
+        if (dot(face, face) < smallest_cross * smallest_cross) {
+            ++out.dropped;
+            continue;
+        }
+        for (const Vec3d& corner : p) append(out.positions, corner);
+        out.materials.push_back(primitive.material);
+        if (normals) {
+            for (const uint32_t c : corners)
+                append(
+                    out.normals, primitive.normals.empty() ? normalized(face) : transform_normal(to_world, vertex(primitive.normals, c)));
+        }
+        if (colors)
+            for (const uint32_t c : corners) append(out.colors, primitive.colors.empty() ? Vec3d{1, 1, 1} : vertex(primitive.colors, c));
+    }
+}
+
+PunctualLight normalised_light(const NormalisedScene& space, PunctualLight light) {
+    light.position = space.to_normalised(light.position);
+    light.range /= space.metres;
+    if (light.kind != LightKind::directional)
+        for (float& channel : light.intensity) channel = static_cast<float>(channel / (space.metres * space.metres));
+    return light;
+}
+
+}  // namespace
+
+Vec3d NormalisedScene::to_normalised(const Vec3d& world) const {
+    return {(world[0] - centre[0]) / metres, (world[1] - centre[1]) / metres, (world[2] - centre[2]) / metres};
+}
+
+NormalisedScene normalise(const Scene& scene) {
+    const Bounds bounds = world_bounds(scene);
+    NormalisedScene out;
+    out.metres = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        out.centre[k] = 0.5 * (bounds.low[k] + bounds.high[k]);
+        out.metres = std::max(out.metres, bounds.high[k] - bounds.low[k]);
+    }
+    if (!std::isfinite(out.metres) || out.metres <= 0)
+        throw Error("{}: the scene's extent is {} m; give it triangles with an area", scene.name, out.metres);
+
+    bool normals = false;
+    bool colors = false;
+    for (const Instance& instance : scene.instances) {
+        normals = normals || !scene.primitives[instance.primitive].normals.empty();
+        colors = colors || !scene.primitives[instance.primitive].colors.empty();
+    }
+    for (const Instance& instance : scene.instances)
+        append_instance(out, scene.primitives[instance.primitive], instance.to_world, normals, colors);
+    if (out.materials.empty()) throw Error("{}: every triangle has zero area; there is nothing to render", scene.name);
+    for (const PunctualLight& light : scene.lights) out.lights.push_back(normalised_light(out, light));
+    return out;
+}
+
+}  // namespace wavepath

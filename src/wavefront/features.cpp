@@ -1,0 +1,46 @@
+#include "wavefront/features.h"
+
+#include "scene/device_material.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace wavepath {
+
+std::string Features::defines() const {
+    std::string text;
+    const auto define = [&](const char* name, bool value) { text += fmt::format("#define {} {}\n", name, value ? 1 : 0); };
+    define("HAS_VERTEX_NORMALS", vertex_normals);
+    define("HAS_VERTEX_COLORS", vertex_colors);
+    define("HAS_SPECULAR", specular);
+    define("HAS_AREA_LIGHTS", area_lights);
+    define("HAS_PUNCTUAL_LIGHTS", punctual_lights);
+    define("HAS_ENVIRONMENT", environment);
+    define("HAS_ENVIRONMENT_MAP", environment_map);
+    define("HAS_SPLITS", splits);
+    define("SAMPLE_LIGHTS", sample_lights);
+    define("SAMPLE_LOBES", sample_lobes);
+    define("WEIGH_BOTH", weigh_both);
+    define("SAMPLER_SOBOL", sobol);
+    return text;
+}
+
+Features features_of(
+    const Scene& scene, const NormalisedScene& geometry, const LightTables& lights, const Method& method, uint32_t splits, bool sobol) {
+    Features f;
+    f.vertex_normals = !geometry.normals.empty();
+    f.vertex_colors = !geometry.colors.empty();
+    f.specular = std::ranges::any_of(geometry.materials, [&](uint32_t m) { return reflects_specularly(scene.materials[m]); });
+    f.area_lights = std::ranges::any_of(lights.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
+    f.punctual_lights = !geometry.lights.empty();
+    f.environment = scene.environment.has_value();
+    f.environment_map = f.environment && scene.environment->width > 0;
+    f.splits = splits > 1;
+    f.sample_lights = method.sample_lights && !lights.lights.empty();
+    f.sample_lobes = method.sample_lobes;
+    f.weigh_both = method.weigh_both;
+    f.sobol = sobol;
+    return f;
+}
+
+}  // namespace wavepath

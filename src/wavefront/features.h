@@ -1,0 +1,34 @@
+// What a scene and a method need of the chain; kernels/shared/features.h is the other side.
+#pragma once
+
+#include "scene/light_tables.h"
+#include "scene/normalise.h"
+#include "scene/scene.h"
+#include "wavefront/method.h"
+
+#include <string>
+
+namespace wavepath {
+
+struct Features {
+    bool vertex_normals = false;
+    bool vertex_colors = false;
+    bool specular = false;
+    bool area_lights = false;
+    bool punctual_lights = false;
+    bool environment = false;
+    bool environment_map = false;
+    bool splits = false;
+    bool sample_lights = false;
+    bool sample_lobes = false;
+    bool weigh_both = false;
+    bool sobol = true;
+
+    // The #define lines that kernels/shared/features.h expects.
+    std::string defines() const;
+};
+
+Features features_of(
+    const Scene& scene, const NormalisedScene& geometry, const LightTables& lights, const Method& method, uint32_t splits, bool sobol);
+
+}  // namespace wavepath

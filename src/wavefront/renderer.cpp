@@ -1,0 +1,152 @@
+#include "wavefront/renderer.h"
+
+#include "device/program.h"
+#include "scene/camera.h"
+#include "wavefront/sample_plan.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace wavepath {
+
+namespace {
+
+class Stopwatch {
+  public:
+    // Seconds since the last lap, or since the start.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return seconds;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void check_lights(const Scene& scene, const NormalisedScene& geometry, const LightTables& tables, const Method& method, RenderResult& result) {
+    const bool area = std::ranges::any_of(tables.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
+    const bool punctual = !geometry.lights.empty();
+    if (!area && !punctual && !scene.environment)
+        throw Error("{}: no light; add an emissive material, a KHR_lights_punctual light, --env or --env-radiance", scene.name);
+    if (method.sample_lights || !punctual) return;
+    if (!area && !scene.environment)
+        throw Error("{}: --method {} cannot find punctual lights, and the scene has no other; use direct, direct-bsdf or mis", scene.name, method.name);
+    result.warnings.push_back(fmt::format("--method {} cannot find punctual lights: their light is missing", method.name));
+}
+
+RenderParams scene_params(const Scene& scene, const NormalisedScene& geometry, const LightTables& tables, const RenderSettings& settings) {
+    RenderParams params{};
+    set_camera(params, settings.camera, geometry, settings.width, settings.height);
+    params.seed = settings.seed;
+    params.max_scatterings = settings.termination.kind == TerminationKind::depth ? settings.termination.depth : MAX_SCATTERINGS;
+    params.roulette = settings.termination.kind == TerminationKind::roulette            ? 1
+                      : settings.termination.kind == TerminationKind::roulette_constant ? 2
+                                                                                        : 0;
+    params.survival = settings.termination.survival;
+    params.splits = settings.splits;
+    params.split_depth = settings.split_depth;
+    params.light_count = static_cast<cl_uint>(tables.lights.size());
+    params.environment_pmf = tables.environment_pmf;
+    if (scene.environment) {
+        params.environment_width = scene.environment->width;
+        params.environment_height = scene.environment->height;
+        params.environment_r = scene.environment->radiance[0];
+        params.environment_g = scene.environment->radiance[1];
+        params.environment_b = scene.environment->radiance[2];
+    }
+    return params;
+}
+
+// Windows are cut to about a second, so that progress, Ctrl-C and limits are met in time; the picture does not depend on it.
+class Schedule {
+  public:
+    Schedule(const RenderSettings& settings, uint64_t max_cells)
+        : plan_(settings.samples), pixels_(settings.width * settings.height), max_cells_(max_cells), seconds_(settings.seconds) {}
+
+    const SamplePlan& plan() const { return plan_; }
+
+    // The next passes, to be rendered window by window.
+    std::vector<Window> next(double elapsed) {
+        const double wanted = seconds_ > 0 ? std::clamp(seconds_ - elapsed, 0.0, 1.0) : 1.0;
+        const double passes = rate_ > 0 ? wanted * rate_ : 1;
+        const uint64_t fit = std::max<uint64_t>(1, max_cells_ / pixels_);
+        const std::vector<PlanRow> rows = plan_.take(std::clamp<uint64_t>(static_cast<uint64_t>(passes), 1, fit));
+        passes_ = rows.size();
+        std::vector<Window> windows;
+        for (uint64_t first = 0; first < pixels_ && !rows.empty(); first += max_cells_)
+            windows.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(std::min(pixels_ - first, max_cells_)), rows});
+        return windows;
+    }
+
+    void took(double seconds) {
+        if (seconds > 0) rate_ = static_cast<double>(passes_) / seconds;
+    }
+
+  private:
+    SamplePlan plan_;
+    uint64_t pixels_;
+    uint64_t max_cells_;
+    double seconds_;
+    double rate_ = 0;  // passes/s
+    uint64_t passes_ = 0;
+};
+
+}  // namespace
+
+RenderResult render(
+    const Device& device, const Scene& scene, const RenderSettings& settings, const std::function<bool(const RenderProgress&)>& progress) {
+    RenderResult result;
+    Stopwatch watch;
+    const NormalisedScene geometry = normalise(scene);
+    const LightTables tables = build_light_tables(scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
+    check_lights(scene, geometry, tables, settings.method, result);
+    const Features features = features_of(scene, geometry, tables, settings.method, settings.splits, settings.sobol);
+    result.times.normalise = watch.lap();
+    const Bvh bvh = build_bvh(geometry.positions);
+    result.times.bvh_build = watch.lap();
+    const SceneBuffers buffers(device, scene, geometry, bvh, tables);
+    result.times.upload = watch.lap();
+
+    const cl::Program program = build_program(device, assemble_source(features.defines(), QueueManager::kernel_files(features)));
+    Profile profile;
+    const uint32_t pool = settings.pool > 0 ? settings.pool : device.info.default_pool;
+    const uint64_t max_cells = std::max<uint64_t>(uint64_t{1} << 20U, pool);
+    QueueManager queues(device, program, features, buffers, pool, max_cells, settings.work_groups, profile);
+    Film film(device, settings.width, settings.height);
+    result.times.program_build = watch.lap();
+
+    const RenderParams params = scene_params(scene, geometry, tables, settings);
+    Schedule schedule(settings, max_cells);
+    while (!schedule.plan().done()) {
+        for (const Window& window : schedule.next(result.times.render)) queues.render(window, params, film);
+        const double seconds = watch.lap();
+        schedule.took(seconds);
+        result.times.render += seconds;
+        result.interrupted = progress && !progress({schedule.plan().samples_taken(), result.times.render});
+        if (result.interrupted || (settings.seconds > 0 && result.times.render >= settings.seconds)) break;
+        if (settings.target_error > 0 &&
+            develop(device, film, schedule.plan().samples_taken(), schedule.plan().batches_closed()).relative_error < settings.target_error)
+            break;
+    }
+
+    result.samples = schedule.plan().samples_taken();
+    result.batches = schedule.plan().batches_closed();
+    result.film = develop(device, film, result.samples, result.batches);
+    result.profile = profile.rows();
+    result.device_clock = profile.device_clock();
+    result.path_lengths = queues.path_lengths();
+    result.iterations = queues.iterations();
+    result.triangles = geometry.triangle_count();
+    result.dropped_triangles = geometry.dropped;
+    result.lights = tables.lights.size();
+    result.bvh_nodes = bvh.nodes.size();
+    result.bvh_blocks = bvh.blocks.size();
+    result.scene_bytes = buffers.bytes();
+    result.pool_bytes = queues.bytes();
+    result.film_bytes = film.bytes();
+    return result;
+}
+
+}  // namespace wavepath

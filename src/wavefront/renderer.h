@@ -1,0 +1,64 @@
+// From a scene and settings to a finished picture.
+#pragma once
+
+#include "film/film.h"
+#include "measure/profile.h"
+#include "scene/scene.h"
+#include "wavefront/method.h"
+#include "wavefront/queue_manager.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace wavepath {
+
+struct RenderSettings {
+    uint32_t width = 512, height = 512;
+    Camera camera;
+    uint64_t samples = 64;     // a pixel; 0: open-ended, until `seconds` or `target_error`
+    double seconds = 0;        // stop after the pass that passes it; 0: no limit
+    double target_error = 0;   // stop when DevelopedFilm::relative_error falls below; 0: no target
+    uint32_t seed = 1;
+    Method method = method_named("mis");
+    Termination termination;
+    uint32_t splits = 1;
+    uint32_t split_depth = 1;
+    bool sobol = true;
+    uint32_t pool = 0;         // path slots; 0: the device's default
+    WorkGroups work_groups;
+};
+
+struct RenderTimes {
+    double normalise = 0, bvh_build = 0, upload = 0, program_build = 0, render = 0;  // [s]
+};
+
+struct RenderProgress {
+    uint64_t samples = 0;      // a pixel, so far
+    double seconds = 0;        // of rendering
+};
+
+struct RenderResult {
+    DevelopedFilm film;
+    uint64_t samples = 0;      // a pixel
+    uint32_t batches = 0;      // that the variance rests on
+    RenderTimes times;
+    std::vector<ProfileRow> profile;
+    bool device_clock = true;
+    std::vector<uint64_t> path_lengths;  // paths by closest-hit rays traced: 1, 2, ...
+    uint64_t shadow_rays = 0;  // upper bound: connections offered to `occlusion`
+    uint64_t iterations = 0;
+    std::size_t triangles = 0, dropped_triangles = 0, lights = 0, bvh_nodes = 0, bvh_blocks = 0;
+    std::size_t scene_bytes = 0, pool_bytes = 0, film_bytes = 0;  // on the device
+    std::vector<std::string> warnings;
+    bool interrupted = false;
+};
+
+// `progress` is called after every window; it returns false to stop there.
+// Throws Error where the scene has no light, or none that the method can find; where the device lacks memory, before
+// rendering; for a path that never ends.
+RenderResult render(
+    const Device& device, const Scene& scene, const RenderSettings& settings,
+    const std::function<bool(const RenderProgress&)>& progress = {});
+
+}  // namespace wavepath

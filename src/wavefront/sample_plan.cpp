@@ -1,0 +1,37 @@
+#include "wavefront/sample_plan.h"
+
+#include <algorithm>
+
+namespace wavepath {
+
+SamplePlan::SamplePlan(uint64_t samples)
+    : samples_(samples), batch_count_(static_cast<uint32_t>(std::min<uint64_t>(samples, batches))) {}
+
+uint32_t SamplePlan::batch_size() const {
+    if (samples_ == 0) return open_batch;
+    return static_cast<uint32_t>(samples_ / batch_count_ + (batch_ < samples_ % batch_count_ ? 1 : 0));
+}
+
+std::vector<PlanRow> SamplePlan::take(uint64_t count) {
+    std::vector<PlanRow> rows;
+    while (rows.size() < count && !done()) {
+        const uint32_t size = batch_size();
+        PlanRow row{};
+        row.batch = batch_;
+        row.samples_before = before_;
+        row.first_sample = in_batch_;
+        row.samples = std::min(pass_samples, size - in_batch_);
+        in_batch_ += row.samples;
+        taken_ += row.samples;
+        if (in_batch_ == size) {
+            row.closes_batch = size;
+            ++batch_;
+            before_ += size;
+            in_batch_ = 0;
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+}  // namespace wavepath
