@@ -53,21 +53,21 @@ SlabRay slab_ray(float ox, float oy, float oz, float dx, float dy, float dz) {
     ray.far_x = -ox * ray.ix + slack * fabs(ray.ix);
     ray.far_y = -oy * ray.iy + slack * fabs(ray.iy);
     ray.far_z = -oz * ray.iz + slack * fabs(ray.iz);
-    ray.row_x = ray.ix < 0.0f;
-    ray.row_y = 2 + (ray.iy < 0.0f);
-    ray.row_z = 4 + (ray.iz < 0.0f);
+    ray.row_x = ray.ix < 0.0f ? 8 : 0;
+    ray.row_y = ray.iy < 0.0f ? 24 : 16;
+    ray.row_z = ray.iz < 0.0f ? 40 : 32;
     return ray;
 }
 
 // Children whose box the ray crosses before t_max, and where it enters them.
 uint intersect_node(global const BvhNode* node, const SlabRay* ray, float t_max, float8* t_near) {
     global const float* rows = &node->bounds[0][0][0];
-    const float8 near_x = fma(vload8(ray->row_x, rows), (float8)(ray->ix), (float8)(ray->near_x));
-    const float8 near_y = fma(vload8(ray->row_y, rows), (float8)(ray->iy), (float8)(ray->near_y));
-    const float8 near_z = fma(vload8(ray->row_z, rows), (float8)(ray->iz), (float8)(ray->near_z));
-    const float8 far_x = fma(vload8(ray->row_x ^ 1, rows), (float8)(ray->ix), (float8)(ray->far_x));
-    const float8 far_y = fma(vload8(ray->row_y ^ 1, rows), (float8)(ray->iy), (float8)(ray->far_y));
-    const float8 far_z = fma(vload8(ray->row_z ^ 1, rows), (float8)(ray->iz), (float8)(ray->far_z));
+    const float8 near_x = fma(vload8(0, rows + ray->row_x), (float8)(ray->ix), (float8)(ray->near_x));
+    const float8 near_y = fma(vload8(0, rows + ray->row_y), (float8)(ray->iy), (float8)(ray->near_y));
+    const float8 near_z = fma(vload8(0, rows + ray->row_z), (float8)(ray->iz), (float8)(ray->near_z));
+    const float8 far_x = fma(vload8(0, rows + (ray->row_x ^ 8)), (float8)(ray->ix), (float8)(ray->far_x));
+    const float8 far_y = fma(vload8(0, rows + (ray->row_y ^ 8)), (float8)(ray->iy), (float8)(ray->far_y));
+    const float8 far_z = fma(vload8(0, rows + (ray->row_z ^ 8)), (float8)(ray->iz), (float8)(ray->far_z));
     *t_near = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
     return lane_mask(*t_near <= min(min(far_x, far_y), min(far_z, (float8)(t_max))));
 }

@@ -3,6 +3,7 @@
 
 #include "materials/gltf_material.cl"
 #include "shared/features.h"
+#include "shared/inline.h"
 #include "shared/path.h"
 #include "shared/scene.h"
 
@@ -24,13 +25,13 @@ typedef struct {
     uint light;     // row of the light table, or NO_LIGHT
 } Interaction;
 
-inline Vec3 triangle_corner(global const float* triangle, const int attribute, const int corner) {
+INLINE Vec3 triangle_corner(global const float* triangle, const int attribute, const int corner) {
     return vec3(
         triangle[attribute + 3 * corner], triangle[attribute + 3 * corner + 1],
         triangle[attribute + 3 * corner + 2]);
 }
 
-inline Vec3 interpolate(global const float* triangle, const int attribute, const float u, const float v) {
+INLINE Vec3 interpolate(global const float* triangle, const int attribute, const float u, const float v) {
     const Vec3 a = triangle_corner(triangle, attribute, 0);
     const Vec3 b = triangle_corner(triangle, attribute, 1);
     const Vec3 c = triangle_corner(triangle, attribute, 2);
@@ -38,7 +39,7 @@ inline Vec3 interpolate(global const float* triangle, const int attribute, const
 }
 
 // Normal of a triangle, not unit: length = twice the area; towards whom its corners run counter-clockwise.
-inline Vec3 triangle_cross(global const float* triangle) {
+INLINE Vec3 triangle_cross(global const float* triangle) {
     const Vec3 a = triangle_corner(triangle, TRIANGLE_CORNERS, 0);
     return cross3(
         sub3(triangle_corner(triangle, TRIANGLE_CORNERS, 1), a),
@@ -46,7 +47,7 @@ inline Vec3 triangle_cross(global const float* triangle) {
 }
 
 // `primitive` < 0 stands for triangle 0: the caller ignores the result.
-inline Interaction interact(
+INLINE Interaction interact(
     global const float* triangles,
     global const DeviceMaterial* materials,
     const int primitive,
@@ -80,6 +81,6 @@ inline Interaction interact(
 }
 
 // The start of a ray that leaves the surface on the side of the normal `ng`.
-inline Vec3 leave(const Vec3 p, const Vec3 ng) {
+INLINE Vec3 leave(const Vec3 p, const Vec3 ng) {
     return madd3(p, ng, RAY_OFFSET);
 }

@@ -4,6 +4,7 @@
 #include "geometry/interaction.cl"
 #include "lights/light_choice.cl"
 #include "sampling/mis.cl"
+#include "shared/inline.h"
 
 typedef struct {
     Vec3 p;         // end of the connection; for lights at infinity far outside the scene
@@ -12,7 +13,7 @@ typedef struct {
     float pdf_w;    // [1/sr] of the point, light choice included; PDF_CERTAIN: a bsdf sample cannot find this light
 } LightSample;
 
-inline LightSample area_light_sample(
+INLINE LightSample area_light_sample(
     global const float* triangles,
     global const DeviceMaterial* materials,
     global const DeviceLight* light,
@@ -22,7 +23,7 @@ inline LightSample area_light_sample(
     global const float* triangle = triangles + TRIANGLE_FLOATS * primitive;
     global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
     const Sample2 b = sample_triangle(u);
-    const Vec3 face = normalize3(triangle_cross(triangle));
+    const Vec3 face = scale3(triangle_cross(triangle), 0.5f / light->area);
     const Vec3 point = interpolate(triangle, TRIANGLE_CORNERS, b.u, b.v);
     const Vec3 to_light = sub3(point, from);
     const float distance2 = dot3(to_light, to_light);
@@ -31,7 +32,7 @@ inline LightSample area_light_sample(
     s.wi = scale3(to_light, 1.0f / sqrt(distance2));
     const float cos_front = -dot3(s.wi, face);
     const float cos_light = fabs(cos_front);
-    const int lit = (cos_front > 0.0f || material->double_sided) && cos_light > 0.0f && distance2 > 0.0f;
+    const int lit = (material->double_sided ? cos_light : cos_front) > 0.0f;
     s.pdf_w = pdf_a_to_w(light->pmf / light->area, distance2, cos_light);
     // The connection ends just before the light, on the side it is seen from.
     s.p = leave(point, scale3(face, cos_front > 0.0f ? 1.0f : -1.0f));
@@ -41,7 +42,7 @@ inline LightSample area_light_sample(
 }
 
 // pdf_w [1/sr] with which light sampling would have chosen the point that a bsdf ray met.
-inline float area_light_pdf_w(
+INLINE float area_light_pdf_w(
     global const DeviceLight* lights, const uint row, const float distance, const float cos_light) {
     global const DeviceLight* light = lights + (row == NO_LIGHT ? 0 : (int)row);
     return pdf_a_to_w(light->pmf / light->area, distance * distance, cos_light);

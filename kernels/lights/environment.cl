@@ -4,9 +4,10 @@
 #include "lights/light_choice.cl"
 #include "sampling/warp.cl"
 #include "shared/features.h"
+#include "shared/inline.h"
 #include "shared/params.h"
 
-inline Vec3 environment_texel(
+INLINE Vec3 environment_texel(
     global const EnvironmentEntry* map, constant const RenderParams* params, const int x, const int y) {
     const int width = (int)params->environment_width;
     const int height = (int)params->environment_height;
@@ -17,7 +18,7 @@ inline Vec3 environment_texel(
 }
 
 // Bilinear between texel centres, wrapped in u.
-inline Vec3 environment_eval(
+INLINE Vec3 environment_eval(
     global const EnvironmentEntry* map, constant const RenderParams* params, const Vec3 d) {
     const Vec3 scale = vec3(params->environment_r, params->environment_g, params->environment_b);
     if (!HAS_ENVIRONMENT_MAP) return scale;
@@ -38,7 +39,7 @@ inline Vec3 environment_eval(
 
 // pdf_w [1/sr] of environment_sample, without the choice of the light: uniform in (u, v) within a texel, so
 // pmf * width * height / (2 pi^2 sin theta) [Pharr, Jakob, Humphreys 2023, section 12.5].
-inline float environment_pdf_w(
+INLINE float environment_pdf_w(
     global const EnvironmentEntry* map, constant const RenderParams* params, const Vec3 d) {
     if (!HAS_ENVIRONMENT_MAP) return 0.25f * INV_PI_F;
     const int width = (int)params->environment_width;
@@ -50,7 +51,7 @@ inline float environment_pdf_w(
     return pmf * (float)width * (float)height * (0.5f * INV_PI_F * INV_PI_F) / sine;
 }
 
-inline Vec3 environment_sample(
+INLINE Vec3 environment_sample(
     global const EnvironmentEntry* map, constant const RenderParams* params, const Bits2 bits) {
     if (!HAS_ENVIRONMENT_MAP) return sample_sphere(unit_pair(bits));
     const uint width = params->environment_width;

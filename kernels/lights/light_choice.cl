@@ -2,18 +2,19 @@
 #pragma once
 
 #include "sampling/sobol.cl"
+#include "shared/inline.h"
 #include "shared/scene.h"
 
 // Splits 32 random bits into an entry of `count` and fresh bits for the threshold.
-inline uint choice_entry(const uint bits, const uint count) {
+INLINE uint choice_entry(const uint bits, const uint count) {
     return mul_hi(bits, count);
 }
 
-inline uint choice_rest(const uint bits, const uint count) {
+INLINE uint choice_rest(const uint bits, const uint count) {
     return bits * count;
 }
 
-inline uint choose_light(global const DeviceLight* lights, const uint count, const uint bits) {
+INLINE uint choose_light(global const DeviceLight* lights, const uint count, const uint bits) {
     const uint entry = choice_entry(bits, count);
     const int keep = unit_float(choice_rest(bits, count)) < lights[(int)entry].alias_threshold;
     return keep ? entry : lights[(int)entry].alias;

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "lights/area_light.cl"
+#include "shared/inline.h"
 
 #define OUTSIDE_SCENE 4.0f  // [normalised] farther than the scene is wide, seen from any surface
 
-inline LightSample punctual_sample(global const DeviceLight* light, const Vec3 from) {
+INLINE LightSample punctual_sample(global const DeviceLight* light, const Vec3 from) {
     const Vec3 intensity = vec3(light->intensity_r, light->intensity_g, light->intensity_b);
     const Vec3 shines = vec3(light->direction_x, light->direction_y, light->direction_z);
     const Vec3 to_light = sub3(vec3(light->position_x, light->position_y, light->position_z), from);

@@ -8,6 +8,7 @@
 #include "materials/ggx.cl"
 #include "materials/lambert.cl"
 #include "shared/features.h"
+#include "shared/inline.h"
 #include "shared/path.h"
 
 typedef struct {
@@ -24,7 +25,7 @@ typedef struct {
 } Reflectance;
 
 // Both factors for a microfacet that sees wo under `cosine` = wo.m.
-inline Reflectance gltf_reflectance(const Surface s, const float cosine) {
+INLINE Reflectance gltf_reflectance(const Surface s, const float cosine) {
     Reflectance r;
     if (!HAS_SPECULAR) {
         r.specular = vec3(0.0f, 0.0f, 0.0f);
@@ -40,12 +41,12 @@ inline Reflectance gltf_reflectance(const Surface s, const float cosine) {
     return r;
 }
 
-inline int gltf_is_mirror(const Surface s) {
+INLINE int gltf_is_mirror(const Surface s) {
     return HAS_SPECULAR && s.alpha < MIRROR_ALPHA;
 }
 
 // Probability that sampling takes the specular lobe: its share of what is reflected at normal-facing facets.
-inline float gltf_specular_pmf(const Surface s, const Vec3 wo) {
+INLINE float gltf_specular_pmf(const Surface s, const Vec3 wo) {
     if (!HAS_SPECULAR) return 0.0f;
     const Reflectance r = gltf_reflectance(s, wo.z);
     const float specular = max_component3(r.specular);
@@ -56,7 +57,7 @@ inline float gltf_specular_pmf(const Surface s, const Vec3 wo) {
 }
 
 // f_r cos of the lobes that are not deltas.
-inline Vec3 gltf_eval(const Surface s, const Vec3 wo, const Vec3 wi) {
+INLINE Vec3 gltf_eval(const Surface s, const Vec3 wo, const Vec3 wi) {
     if (!HAS_SPECULAR) return scale3(s.base, lambert_eval(wi));
     const Vec3 m = normalize3(add3(wo, wi));
     const Reflectance r = gltf_reflectance(s, dot3(wo, m));
@@ -66,7 +67,7 @@ inline Vec3 gltf_eval(const Surface s, const Vec3 wo, const Vec3 wi) {
 }
 
 // pdf_w [1/sr] of gltf_sample, without its delta.
-inline float gltf_pdf_w(const Surface s, const Vec3 wo, const Vec3 wi) {
+INLINE float gltf_pdf_w(const Surface s, const Vec3 wo, const Vec3 wi) {
     if (!HAS_SPECULAR) return lambert_pdf_w(wi);
     const float pmf = gltf_specular_pmf(s, wo);
     const float ggx = gltf_is_mirror(s) ? 0.0f : ggx_pdf_w(wo, normalize3(add3(wo, wi)), s.alpha);
@@ -80,7 +81,7 @@ typedef struct {
     float pdf_w;   // [1/sr], or PDF_CERTAIN from a delta
 } BsdfSample;
 
-inline BsdfSample gltf_sample(const Surface s, const Vec3 wo, const Sample2 u, const float choice) {
+INLINE BsdfSample gltf_sample(const Surface s, const Vec3 wo, const Sample2 u, const float choice) {
     BsdfSample r;
     r.wi = lambert_sample(u);
     if (!HAS_SPECULAR) {

@@ -2,15 +2,16 @@
 #pragma once
 
 #include "sampling/warp.cl"
+#include "shared/inline.h"
 
-inline float lambert_eval(const Vec3 wi) {
+INLINE float lambert_eval(const Vec3 wi) {
     return max(wi.z, 0.0f) * INV_PI_F;  // f_r cos for albedo 1
 }
 
-inline float lambert_pdf_w(const Vec3 wi) {
+INLINE float lambert_pdf_w(const Vec3 wi) {
     return max(wi.z, 0.0f) * INV_PI_F;
 }
 
-inline Vec3 lambert_sample(const Sample2 u) {
+INLINE Vec3 lambert_sample(const Sample2 u) {
     return sample_cosine(u);
 }

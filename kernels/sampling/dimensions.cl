@@ -1,8 +1,9 @@
 // Which random numbers a decision takes: a pair of dimensions for each, SCATTERING_PAIRS a scattering.
 #pragma once
 
-#include "shared/features.h"
 #include "sampling/sobol.cl"
+#include "shared/features.h"
+#include "shared/inline.h"
 
 #define PAIR_PIXEL 0u  // position within the pixel
 #define PAIR_FIRST 1u  // of the first scattering
@@ -17,7 +18,7 @@
 #define SOBOL_SCATTERINGS 8u
 
 // `seed` and `reversed_index`: planes ID_SEED and ID_INDEX.
-inline Bits2 dimension_pair(const uint seed, const uint reversed_index, const uint dimension, const int low) {
+INLINE Bits2 dimension_pair(const uint seed, const uint reversed_index, const uint dimension, const int low) {
     const uint pair_seed = hash_pair(seed, dimension);
     if (!SAMPLER_SOBOL) return independent_pair(reversed_index, pair_seed);
     const Bits2 sobol = sobol_pair(reversed_index, pair_seed);
@@ -29,7 +30,7 @@ inline Bits2 dimension_pair(const uint seed, const uint reversed_index, const ui
 }
 
 // `branch`: plane ID_BRANCH, so that the children of a branch vertex differ.
-inline Bits2 scattering_pair(
+INLINE Bits2 scattering_pair(
     const uint seed, const uint reversed_index, const uint branch, const uint scattering, const uint pair) {
     const uint dimension = PAIR_FIRST + scattering * SCATTERING_PAIRS + pair;
     return dimension_pair(

@@ -3,8 +3,9 @@
 #pragma once
 
 #include "sampling/rng.cl"
+#include "shared/inline.h"
 
-inline uint reverse_bits_32(uint x) {
+INLINE uint reverse_bits_32(uint x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
     x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
@@ -14,7 +15,7 @@ inline uint reverse_bits_32(uint x) {
 
 // A permutation in which every bit depends on lower bits alone: an Owen scramble of the bit-reversed word
 // (Laine & Karras 2011; constants of Vegdahl 2021).
-inline uint scramble_upwards(uint x, const uint seed) {
+INLINE uint scramble_upwards(uint x, const uint seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;
@@ -25,7 +26,7 @@ inline uint scramble_upwards(uint x, const uint seed) {
 
 // Second Sobol dimension of `index`, bits reversed: bit j is the parity of the index bits k that contain j, since its
 // generator matrix is Pascal's triangle modulo 2 (Sobol 1967; Lucas' theorem).
-inline uint sobol_second(uint x) {
+INLINE uint sobol_second(uint x) {
     x ^= (x >> 1) & 0x55555555u;
     x ^= (x >> 2) & 0x33333333u;
     x ^= (x >> 4) & 0x0f0f0f0fu;
@@ -42,7 +43,7 @@ typedef struct {
     float u, v;  // [0, 1)
 } Sample2;
 
-inline Sample2 unit_pair(const Bits2 bits) {
+INLINE Sample2 unit_pair(const Bits2 bits) {
     Sample2 s;
     s.u = unit_float(bits.u);
     s.v = unit_float(bits.v);
@@ -50,7 +51,7 @@ inline Sample2 unit_pair(const Bits2 bits) {
 }
 
 // Point `reversed_index` (bits reversed) of the pair of dimensions that `seed` names.
-inline Bits2 sobol_pair(const uint reversed_index, const uint seed) {
+INLINE Bits2 sobol_pair(const uint reversed_index, const uint seed) {
     const uint shuffled = reverse_bits_32(scramble_upwards(reversed_index, hash_uint(seed)));
     Bits2 b;
     b.u = reverse_bits_32(scramble_upwards(shuffled, hash_uint(seed ^ 0x68bc21ebu)));
@@ -58,7 +59,7 @@ inline Bits2 sobol_pair(const uint reversed_index, const uint seed) {
     return b;
 }
 
-inline Bits2 independent_pair(const uint reversed_index, const uint seed) {
+INLINE Bits2 independent_pair(const uint reversed_index, const uint seed) {
     const uint h = hash_uint(reversed_index ^ seed);
     Bits2 b;
     b.u = hash_uint(h ^ 0x68bc21ebu);

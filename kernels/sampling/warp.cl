@@ -2,8 +2,9 @@
 // vectorisation on PoCL and differ between implementations.
 #pragma once
 
-#include "sampling/vector.cl"
 #include "sampling/sobol.cl"
+#include "sampling/vector.cl"
+#include "shared/inline.h"
 
 #define PI_F 3.14159265358979f
 #define INV_PI_F 0.318309886183791f
@@ -14,7 +15,7 @@ typedef struct {
 
 // sin and cos of 2 pi u, u in [-1, 1]; absolute error below 2e-7. Minimax polynomials on [-1/8, 1/8] turns after
 // reduction to the nearest quarter turn.
-inline SineCosine sincos_2pi(const float u) {
+INLINE SineCosine sincos_2pi(const float u) {
     const float quarters = u * 4.0f;
     const int k = (int)(quarters + (quarters >= 0.0f ? 0.5f : -0.5f));
     const float x = (quarters - (float)k) * 1.57079632679490f;  // [-pi/4, pi/4]
@@ -35,7 +36,7 @@ inline SineCosine sincos_2pi(const float u) {
 }
 
 // atan2(y, x) / (2 pi) in (-1/2, 1/2]; absolute error below 1e-7 turns. Abramowitz & Stegun 4.4.49 refitted.
-inline float atan2_turns(const float y, const float x) {
+INLINE float atan2_turns(const float y, const float x) {
     const float ax = fabs(x);
     const float ay = fabs(y);
     const float larger = max(ax, ay);
@@ -54,19 +55,19 @@ inline float atan2_turns(const float y, const float x) {
 }
 
 // acos(z) / pi in [0, 1] by the half-angle: stable at both ends.
-inline float acos_half_turns(const float z) {
+INLINE float acos_half_turns(const float z) {
     return 2.0f * atan2_turns(sqrt(max(0.0f, 1.0f - z * z)), z);
 }
 
 // Cosine-distributed direction about +z, pdf_w = cos / pi: uniform in projected solid angle (notes 3, p_mu = 1/pi).
-inline Vec3 sample_cosine(const Sample2 u) {
+INLINE Vec3 sample_cosine(const Sample2 u) {
     const float r = sqrt(u.u);
     const SineCosine phi = sincos_2pi(u.v);
     return vec3(r * phi.cosine, r * phi.sine, sqrt(max(0.0f, 1.0f - u.u)));
 }
 
 // Uniform over the sphere, pdf_w = 1 / (4 pi).
-inline Vec3 sample_sphere(const Sample2 u) {
+INLINE Vec3 sample_sphere(const Sample2 u) {
     const float z = fma(-2.0f, u.u, 1.0f);
     const float r = sqrt(max(0.0f, 1.0f - z * z));
     const SineCosine phi = sincos_2pi(u.v);
@@ -74,7 +75,7 @@ inline Vec3 sample_sphere(const Sample2 u) {
 }
 
 // Barycentric weights of corners 1 and 2, uniform by area, pdf_a = 1 / area (Turk 1990).
-inline Sample2 sample_triangle(const Sample2 u) {
+INLINE Sample2 sample_triangle(const Sample2 u) {
     const float r = sqrt(u.u);
     Sample2 b;
     b.u = r * (1.0f - u.v);

@@ -4,14 +4,22 @@
 
 #include "shared/cl_types.h"
 
+// Colours stand channel by channel: neighbouring r, g, b would be loaded as a vector by LLVM's SLP pass, and a kernel that
+// holds a vector of its own is not vectorised across work-items by PoCL.
 typedef struct {
-    shared_float base_r, base_g, base_b;  // [1] baseColorFactor
-    shared_float metallic;                // [1]
-    shared_float f0_r, f0_g, f0_b;        // [1] dielectric reflectance at normal incidence
-    shared_float specular;                // [1] weight of the dielectric's specular layer
-    shared_float emission_r, emission_g, emission_b;  // radiance
-    shared_float alpha;                   // [1] roughness^2
-    shared_uint double_sided;             // emits from both faces
+    shared_float base_r;      // [1] baseColorFactor
+    shared_float f0_r;        // [1] dielectric reflectance at normal incidence
+    shared_float emission_r;  // radiance
+    shared_float metallic;    // [1]
+    shared_float base_g;
+    shared_float f0_g;
+    shared_float emission_g;
+    shared_float specular;    // [1] weight of the dielectric's specular layer
+    shared_float base_b;
+    shared_float f0_b;
+    shared_float emission_b;
+    shared_float alpha;       // [1] roughness^2
+    shared_uint double_sided;  // emits from both faces
     shared_uint padding[3];
 } DeviceMaterial;
 SHARED_SIZE(DeviceMaterial, 64);
@@ -41,10 +49,17 @@ typedef struct {
     shared_float range;            // LIGHT_POINT: [normalised] 0: unlimited
     shared_float spot_scale;       // LIGHT_POINT: falloff = saturate(cos * scale + offset)^2
     shared_float spot_offset;
-    shared_float direction_x, direction_y, direction_z;  // the way it shines, unit
-    shared_float position_x, position_y, position_z;
-    shared_float intensity_r, intensity_g, intensity_b;  // [W/sr], in units of the normalised scene; directional [W/m^2]
-    shared_float padding[2];
+    shared_float padding;
+    shared_float intensity_r;      // [W/sr] in units of the normalised scene; directional [W/m^2]
+    shared_float position_x;       // [normalised]
+    shared_float direction_x;      // the way it shines, unit
+    shared_float intensity_g;
+    shared_float position_y;
+    shared_float direction_y;
+    shared_float intensity_b;
+    shared_float position_z;
+    shared_float direction_z;
+    shared_uint padding2;
 } DeviceLight;
 SHARED_SIZE(DeviceLight, 80);
 

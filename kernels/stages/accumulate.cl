@@ -3,12 +3,13 @@
 // One work-item an ended path. A cell belongs to one unit, so it has one writer.
 
 #include "sampling/vector.cl"
+#include "shared/inline.h"
 #include "shared/params.h"
 #include "shared/path.h"
 #include "shared/queues.h"
 
 // Tested on the bits: a compiler may assume that isfinite() holds.
-inline int is_finite_bits(const float x) {
+INLINE int is_finite_bits(const float x) {
     return (as_uint(x) & 0x7f800000u) != 0x7f800000u;
 }
 

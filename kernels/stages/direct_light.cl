@@ -40,7 +40,12 @@ kernel void direct_light(
     const Bits2 choice = scattering_pair(seed, index, branch, scattering, PAIR_CHOICE);
     const Bits2 point = scattering_pair(seed, index, branch, scattering, PAIR_LIGHT_POINT);
     global const DeviceLight* light = lights + (int)choose_light(lights, params->light_count, choice.u);
-    LightSample s = punctual_sample(light, x.p);
+    LightSample s;
+    s.p = x.p;
+    s.wi = x.n;
+    s.radiance = vec3(0.0f, 0.0f, 0.0f);
+    s.pdf_w = PDF_CERTAIN;
+    if (HAS_PUNCTUAL_LIGHTS) s = punctual_sample(light, x.p);
     if (HAS_AREA_LIGHTS) {
         const LightSample area = area_light_sample(triangles, materials, light, x.p, unit_pair(point));
         const int is_area = light->kind == LIGHT_TRIANGLE;
@@ -71,11 +76,15 @@ kernel void direct_light(
         const float weight = power_heuristic(s.pdf_w, gltf_pdf_w(x.surface, wo, wi));
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
-    const int connects = primitive >= 0 && scattering < params->max_scatterings && dot3(x.ng, s.wi) > 0.0f &&
-                         wi.z > 0.0f && max_component3(value) > 0.0f;
+    // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay scalar on PoCL.
+    float t_max = primitive >= 0 ? 1.0f : 0.0f;
+    t_max *= scattering < params->max_scatterings ? 1.0f : 0.0f;
+    t_max *= dot3(x.ng, s.wi) > 0.0f ? 1.0f : 0.0f;
+    t_max *= wi.z > 0.0f ? 1.0f : 0.0f;
+    t_max *= max_component3(value) > 0.0f ? 1.0f : 0.0f;
     const Vec3 origin = leave(x.p, x.ng);
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, sub3(s.p, origin));
-    PLANE(shadows, SHADOW_T_MAX)[slot] = connects ? 1.0f : 0.0f;
+    PLANE(shadows, SHADOW_T_MAX)[slot] = t_max;
     store3(PLANE(shadows, SHADOW_R), stride, slot, value);
 }

@@ -7,6 +7,7 @@
 
 #include "sampling/vector.cl"
 #include "shared/film.h"
+#include "shared/inline.h"
 #include "shared/params.h"
 #include "shared/path.h"
 
@@ -14,7 +15,7 @@ typedef struct {
     float sum, lost;  // the true sum is sum - lost
 } Compensated;
 
-inline Compensated add_compensated(Compensated c, const float value) {
+INLINE Compensated add_compensated(Compensated c, const float value) {
     const float y = value - c.lost;
     const float t = c.sum + y;
     c.lost = (t - c.sum) - y;

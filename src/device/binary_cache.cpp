@@ -71,23 +71,16 @@ std::optional<std::vector<unsigned char>> BinaryCache::load() const {
     return std::vector<unsigned char>(binary.begin(), binary.end());
 }
 
-void BinaryCache::store(const cl::Program& program) const {
-    if (path_.empty()) return;
-    try {
-        const std::vector<std::vector<unsigned char>> binaries =
-            program.getInfo<CL_PROGRAM_BINARIES>();
-        if (binaries.size() != 1 || binaries.front().empty()) return;
-        std::error_code failed;
-        std::filesystem::create_directories(path_.parent_path(), failed);
-        const std::filesystem::path temporary = fmt::format("{}.{}", path_.string(), getpid());
-        std::ofstream file(temporary, std::ios::binary);
-        file << identity_ << hash_of(view(binaries.front())) << '\n' << view(binaries.front());
-        file.close();
-        if (file) std::filesystem::rename(temporary, path_, failed);
-        if (!file || failed) std::filesystem::remove(temporary, failed);
-    } catch (const cl::Error&) {
-        return;  // a driver without binaries: nothing to keep
-    }
+void BinaryCache::store(const std::vector<unsigned char>& binary) const {
+    if (path_.empty() || binary.empty()) return;
+    std::error_code failed;
+    std::filesystem::create_directories(path_.parent_path(), failed);
+    const std::filesystem::path temporary = fmt::format("{}.{}", path_.string(), getpid());
+    std::ofstream file(temporary, std::ios::binary);
+    file << identity_ << hash_of(view(binary)) << '\n' << view(binary);
+    file.close();
+    if (file) std::filesystem::rename(temporary, path_, failed);
+    if (!file || failed) std::filesystem::remove(temporary, failed);
 }
 
 }  // namespace wavepath

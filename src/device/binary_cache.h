@@ -22,7 +22,7 @@ class BinaryCache {
 
     // Writes to a temporary name and renames, so that another process reads an entry whole or not
     // at all. A folder that cannot be written is no error: the next run builds again.
-    void store(const cl::Program& program) const;
+    void store(const std::vector<unsigned char>& binary) const;
 
     const std::filesystem::path& path() const { return path_; }  // empty: nothing is cached
 

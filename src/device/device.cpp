@@ -43,8 +43,6 @@ int opencl_version(const std::string& version) {
 void query(const cl::Device& device, DeviceInfo& info) {
     const auto type = device.getInfo<CL_DEVICE_TYPE>();
     const auto float_config = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
-    info.platform =
-        trimmed(cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>());
     info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
     info.vendor = trimmed(device.getInfo<CL_DEVICE_VENDOR>());
     info.version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
@@ -138,10 +136,14 @@ std::vector<cl::Device> devices_of(const cl::Platform& platform) {
 }
 
 DeviceInfo describe_device(
-    const cl::Device& device, uint32_t platform_index, uint32_t device_index) {
+    const cl::Platform& platform,
+    uint32_t platform_index,
+    const cl::Device& device,
+    uint32_t device_index) {
     DeviceInfo info;
     info.platform_index = platform_index;
     info.device_index = device_index;
+    info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
     try {
         query(device, info);
         info.unusable = why_unusable(device, info);
@@ -178,7 +180,7 @@ Device open_device(const std::string& selector) {
     for (uint32_t p = 0; p < platforms.size(); ++p) {
         const std::vector<cl::Device> of_platform = devices_of(platforms[p]);
         for (uint32_t d = 0; d < of_platform.size(); ++d) {
-            infos.push_back(describe_device(of_platform[d], p, d));
+            infos.push_back(describe_device(platforms[p], p, of_platform[d], d));
             devices.push_back(of_platform[d]);
         }
         if (of_platform.empty()) {

@@ -49,9 +49,13 @@ bool load_only_driver(const std::string& icd_file);
 std::vector<cl::Platform> loaded_platforms();
 std::vector<cl::Device> devices_of(const cl::Platform& platform);
 
-// What the driver says of a device, and what wavepath makes of it.
+// What the driver says of a device, and what wavepath makes of it; a driver's error is a reason not
+// to use it.
 DeviceInfo describe_device(
-    const cl::Device& device, uint32_t platform_index, uint32_t device_index);
+    const cl::Platform& platform,
+    uint32_t platform_index,
+    const cl::Device& device,
+    uint32_t device_index);
 
 // The row of a platform without devices: no device name, and `unusable`.
 DeviceInfo describe_empty_platform(const cl::Platform& platform, uint32_t platform_index);

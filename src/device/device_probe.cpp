@@ -70,7 +70,7 @@ void probe_platform(uint32_t p, const LineWriter& report) {
     const std::vector<cl::Device> devices = devices_of(platforms[p]);
     std::vector<DeviceInfo> infos;
     for (uint32_t d = 0; d < devices.size(); ++d) {
-        infos.push_back(describe_device(devices[d], p, d));
+        infos.push_back(describe_device(platforms[p], p, devices[d], d));
         report_line(report, {{"device", infos[d]}, {"tried", !infos[d].unusable.empty()}});
     }
     for (uint32_t d = 0; d < devices.size(); ++d) {

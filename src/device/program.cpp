@@ -189,6 +189,15 @@ cl::Program from_source(
     throw Error("{} ({})\n{}", first_error(log), device.info.name, log);
 }
 
+std::vector<unsigned char> binary_of(const cl::Program& program) {
+    try {
+        const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
+        return binaries.size() == 1 ? binaries.front() : std::vector<unsigned char>();
+    } catch (const cl::Error&) {
+        return {};  // a driver without binaries: nothing to keep
+    }
+}
+
 }  // namespace
 
 std::string kernel_file(const std::string& name) {
@@ -216,7 +225,7 @@ cl::Program build_program(const Device& device, const std::string& source, Build
     const bool from_cache = program() != nullptr;
     if (!from_cache) {
         program = from_source(device, source, options);
-        cache.store(program);
+        if (!cache.path().empty()) cache.store(binary_of(program));
     }
     if (report != nullptr) {
         report->seconds =

@@ -17,8 +17,8 @@ Matrix4 multiply(const Matrix4& a, const Matrix4& b) {
 Matrix4 from_columns(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Vec3d& position) {
     Matrix4 matrix = identity_matrix;
     std::size_t column = 0;
-    for (const Vec3d& axis : {x, y, z, position})
-        std::ranges::copy(axis, matrix.begin() + static_cast<std::ptrdiff_t>(4 * column++));
+    for (const Vec3d& v : {x, y, z, position})
+        std::ranges::copy(v, matrix.begin() + static_cast<std::ptrdiff_t>(4 * column++));
     return matrix;
 }
 

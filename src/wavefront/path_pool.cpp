@@ -11,6 +11,10 @@ uint32_t padded(uint32_t slots) {
     return (slots + 15) / 16 * 16 + 80;
 }
 
+DeviceArray<QueueSizes> no_paths(const Device& device) {
+    return {device, std::vector<QueueSizes>(1), "queue sizes"};
+}
+
 }  // namespace
 
 PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& features)
@@ -24,7 +28,7 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
       branches(device, 0, "path pool"),
       ids(device, std::size_t{ID_PLANES} * stride, "path pool"),
       active{DeviceArray<cl_uint>(device, slots, "path queue"), DeviceArray<cl_uint>(device, slots, "path queue")},
-      sizes{DeviceArray<QueueSizes>(device, 1, "queue sizes"), DeviceArray<QueueSizes>(device, 1, "queue sizes")},
+      sizes{no_paths(device), no_paths(device)},
       ended(device, slots, "path queue"),
       fates(device, slots, "path queue"),
       chunk_counts(device, chunks(), "path queue"),

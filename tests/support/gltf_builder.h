@@ -1,5 +1,8 @@
 #pragma once
 
+#include "scene/gltf_loader.h"
+#include "support/temporary_folder.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
@@ -15,7 +18,8 @@ class GltfBuilder {
   public:
     using Json = nlohmann::json;
 
-    Json root = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", Json::array()}}}}};
+    Json root = {
+        {"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", Json::array()}}}}};
 
     // A buffer view over `values`; returns its index. Each starts at a multiple of 4.
     template <typename T>
@@ -32,8 +36,10 @@ class GltfBuilder {
 
     // An accessor over a new, tightly packed view; `more` adds or replaces properties.
     template <typename T>
-    int accessor(const std::string& type, const std::vector<T>& values, const Json& more = Json::object()) {
-        const std::size_t width = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+    int accessor(
+        const std::string& type, const std::vector<T>& values, const Json& more = Json::object()) {
+        const std::size_t width =
+            type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
         Json accessor = {
             {"bufferView", view(values)},
             {"componentType", component_type<T>()},
@@ -51,9 +57,7 @@ class GltfBuilder {
     // The triangle (0 0 0) (1 0 0) (0 1 0) as an object.
     int triangle() { return object({{"attributes", {{"POSITION", triangle_positions()}}}}); }
 
-    int triangle_positions() {
-        return accessor<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
-    }
+    int triangle_positions() { return accessor<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}); }
 
     int node(const Json& node) {
         const int index = add("nodes", node);
@@ -83,8 +87,8 @@ class GltfBuilder {
         file["buffers"] = {{{"byteLength", bytes_.size()}}};
         std::string json = file.dump();
         json.resize((json.size() + 3) / 4 * 4, ' ');
-        return "glTF" + word(2) + word(28 + json.size() + bytes_.size()) + word(json.size()) + "JSON" +
-               json + word(bytes_.size()) + std::string("BIN\0", 4) + bytes_;
+        return "glTF" + word(2) + word(28 + json.size() + bytes_.size()) + word(json.size()) +
+               "JSON" + json + word(bytes_.size()) + std::string("BIN\0", 4) + bytes_;
     }
 
   private:
@@ -107,7 +111,8 @@ class GltfBuilder {
 
     // `bytes` fills whole words, so that at most two '=' end the text.
     static std::string base64(const std::string& bytes) {
-        constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        constexpr char digits[] =
+            "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
         std::string text;
         for (std::size_t i = 0; i < bytes.size(); i += 3) {
             std::uint32_t block = 0;
@@ -121,5 +126,15 @@ class GltfBuilder {
 
     std::string bytes_;
 };
+
+inline Scene load(const GltfBuilder& builder) {
+    const TemporaryFolder folder;
+    return load_gltf(folder.write("scene.gltf", builder.text()));
+}
+
+// The message load() fails with, "" where it does not.
+inline std::string load_error(const GltfBuilder& builder) {
+    return error_of([&] { load(builder); });
+}
 
 }  // namespace wavepath

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -18,8 +19,9 @@ class TemporaryFolder {
   public:
     TemporaryFolder() {
         const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-        std::string pattern = std::filesystem::temp_directory_path() /
-                              (std::string(test.test_suite_name()) + "." + test.name() + ".XXXXXX");
+        std::string name = std::string(test.test_suite_name()) + "." + test.name();
+        std::replace(name.begin(), name.end(), '/', '.');  // of parameterised tests
+        std::string pattern = std::filesystem::temp_directory_path() / (name + ".XXXXXX");
         path_ = mkdtemp(pattern.data());
     }
     TemporaryFolder(const TemporaryFolder&) = delete;

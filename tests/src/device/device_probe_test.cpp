@@ -1,0 +1,108 @@
+#include "device/device_probe.h"
+
+#include "device/selection.h"
+#include "support/environment_variable.h"
+#include "support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace wavepath {
+namespace {
+
+using testing::HasSubstr;
+
+// Drivers for one test: PoCL and one that fails as `failure` says
+// (tests/drivers/broken_driver.cpp).
+class Drivers {
+  public:
+    explicit Drivers(const std::string& failure) : failure_("BROKEN_DRIVER", failure) {
+        std::filesystem::copy(pocl_icd, folder_.path());
+        folder_.write("broken.icd", WAVEPATH_BROKEN_DRIVER "\n");
+    }
+    static bool have_pocl() { return std::filesystem::exists(pocl_icd); }
+
+  private:
+    static constexpr const char* pocl_icd = "/etc/OpenCL/vendors/pocl.icd";
+    TemporaryFolder folder_;
+    EnvironmentVariable vendors_{"OCL_ICD_VENDORS", folder_.path().string()};
+    EnvironmentVariable failure_;
+};
+
+const DeviceInfo* row_of(const std::vector<DeviceInfo>& rows, const std::string& platform) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const DeviceInfo& info) {
+        return info.platform == platform;
+    });
+    return row == rows.end() ? nullptr : &*row;
+}
+
+class ListDevices : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!Drivers::have_pocl()) GTEST_SKIP() << "PoCL is not installed in the usual place";
+    }
+
+    void list(const std::string& failure, std::chrono::seconds limit = std::chrono::seconds(60)) {
+        const Drivers drivers(failure);
+        rows_ = list_devices(limit);
+        pocl_ = row_of(rows_, "Portable Computing Language");
+        ASSERT_NE(pocl_, nullptr);
+    }
+
+    std::vector<DeviceInfo> rows_;
+    const DeviceInfo* pocl_ = nullptr;
+};
+
+TEST_F(ListDevices, ADriverThatReportsErrorsIsARow) {
+    list("error");
+    EXPECT_EQ(pocl_->unusable, "");
+    EXPECT_GT(pocl_->default_pool, 0U);
+    EXPECT_EQ(rows_.size(), 2U);
+    const auto broken = std::find_if(
+        rows_.begin(), rows_.end(), [](const DeviceInfo& info) { return !info.unusable.empty(); });
+    ASSERT_NE(broken, rows_.end());
+    EXPECT_THAT(broken->unusable, HasSubstr("clGetDeviceInfo, OpenCL error -33"));
+}
+
+TEST_F(ListDevices, ADriverThatCrashesWhenAskedIsARow) {
+    list("crash when asked");
+    EXPECT_EQ(pocl_->unusable, "");
+    ASSERT_NE(row_of(rows_, "broken"), nullptr);
+    EXPECT_THAT(row_of(rows_, "broken")->unusable, HasSubstr("crashes (signal 6)"));
+}
+
+TEST_F(ListDevices, ADriverThatHangsWhenAskedIsARow) {
+    list("crash when asked");  // fills PoCL's cache, so that the limit below is ample
+    list("hang when asked", std::chrono::seconds(10));
+    EXPECT_EQ(pocl_->unusable, "");
+    ASSERT_NE(row_of(rows_, "broken"), nullptr);
+    EXPECT_THAT(row_of(rows_, "broken")->unusable, HasSubstr("does not answer within 10 s"));
+}
+
+// Then the drivers are looked at one by one, and the message says how to leave the broken one out.
+TEST_F(ListDevices, ADriverThatCrashesOnLoadIsNamed) {
+    list("crash on load");
+    EXPECT_THAT(pocl_->unusable, HasSubstr("OCL_ICD_VENDORS="));
+    EXPECT_THAT(pocl_->unusable, HasSubstr("pocl.icd"));
+    ASSERT_NE(row_of(rows_, "broken.icd"), nullptr);
+    EXPECT_THAT(
+        row_of(rows_, "broken.icd")->unusable, HasSubstr("crashes (signal 6) as it is loaded"));
+}
+
+TEST(ListNoDevices, WithoutADriverTheListIsEmpty) {
+    const TemporaryFolder none;
+    const EnvironmentVariable vendors("OCL_ICD_VENDORS", none.path().string());
+    EXPECT_TRUE(list_devices().empty());
+}
+
+TEST(RunDeviceProbe, LeavesOtherCommandLinesAlone) {
+    std::string program = "wavepath", command = "devices";
+    char* arguments[] = {program.data(), command.data(), nullptr};
+    EXPECT_FALSE(run_device_probe(2, arguments));
+}
+
+}  // namespace
+}  // namespace wavepath
