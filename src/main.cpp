@@ -1,26 +1,64 @@
+#include "commands/devices.h"
+#include "commands/interrupt.h"
+#include "commands/manual.h"
+#include "commands/profile.h"
+#include "commands/render.h"
 #include "device/device.h"
-#include "scene/gltf_loader.h"
-#include "scene/camera.h"
-#include "film/exr_writer.h"
-#include "film/png_writer.h"
-#include "wavefront/renderer.h"
+#include "device/device_probe.h"
+#include "device/opencl.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
-using namespace wavepath;
-int main(int argc,char**argv){ try{
- prepare_environment();
- auto device=open_device("");
- Scene s=load_gltf(argv[1]);
- RenderSettings st; st.width=st.height=argc>3?atoi(argv[3]):256; st.samples=argc>2?atoi(argv[2]):64;
- if(getenv("METHOD")) st.method=method_named(getenv("METHOD"));
- if(getenv("ENVR")) {s.environment=Environment{}; s.environment->radiance={1,1.1f,1.3f};}
- if(getenv("POOL")) st.pool=atoi(getenv("POOL"));
- if(getenv("SEED")) st.seed=atoi(getenv("SEED"));
- st.camera=choose_camera(s,normalise(s),"");
- auto r=render(device,s,st);
- printf("norm %.3f bvh %.3f up %.3f prog %.3f render %.3f  it %lu  Ms/s %.3f relerr %.4g nonfinite %lu nodes %zu blocks %zu\n",r.times.normalise,r.times.bvh_build,r.times.upload,r.times.program_build,r.times.render,r.iterations,st.width*st.height*double(r.samples)/r.times.render/1e6,r.film.relative_error,r.film.nonfinite.samples,r.bvh_nodes,r.bvh_blocks);
- double tot=0; for(auto&p:r.profile) tot+=p.seconds;
- for(auto&p:r.profile) printf("%-18s %6lu %10lu %8.4fs %5.1f%% %7.2f ns/item\n",p.name.c_str(),p.launches,p.items,p.seconds,100*p.seconds/r.times.render,1e9*p.seconds/p.items);
- printf("kernels %.1f%%\n",100*tot/r.times.render); for(auto l:r.path_lengths) printf("%lu ",l); puts("");
- write_exr(r.film.image,argc>4?argv[4]:"/tmp/o.exr"); write_png(r.film.image,"/tmp/o.png",0);
- }catch(std::exception&e){printf("error: %s\n",e.what());return 1;} }
+#include <exception>
+
+namespace {
+
+constexpr int exit_failure = 1;
+constexpr int exit_interrupted = 130;
+
+// Lets CLI11 answer a wrong command line in the one-line form of every other error.
+int usage_error(const CLI::App& app, const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    spdlog::error("{}; see wavepath --help", error.what());
+    return exit_failure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (wavepath::run_device_probe(argc, argv)) return 0;
+    spdlog::set_default_logger(spdlog::stderr_color_st("wavepath"));
+    spdlog::set_pattern("%^%l%$: %v");
+
+    CLI::App app("Wavefront path tracer on OpenCL: glTF in, OpenEXR out", "wavepath");
+    app.set_version_flag("--version", WAVEPATH_VERSION);
+    app.require_subcommand(0, 1);
+    std::string completion;
+    bool manual = false;
+    app.add_flag("--man", manual, "Print the manual page")->group("");
+    app.add_option("--completion", completion, "Print the completion script of a shell")->check(CLI::IsMember({"bash"}))->group("");
+    wavepath::add_render_command(app);
+    wavepath::add_devices_command(app);
+    wavepath::add_profile_command(app);
+    try {
+        wavepath::prepare_environment();
+        app.parse(argc, argv);
+        if (manual) std::fputs(wavepath::man_page(app).c_str(), stdout);
+        else if (!completion.empty()) std::fputs(wavepath::bash_completion(app).c_str(), stdout);
+        else if (app.get_subcommands().empty()) std::fputs(app.help().c_str(), stdout);
+    } catch (const CLI::ParseError& error) {
+        return usage_error(app, error);
+    } catch (const wavepath::Interrupted&) {
+        return exit_interrupted;
+    } catch (const cl::Error& error) {
+        spdlog::error("OpenCL: {} failed with code {}; `wavepath devices` tells what this device can do", error.what(), error.err());
+        return exit_failure;
+    } catch (const std::exception& error) {
+        spdlog::error("{}", error.what());
+        return exit_failure;
+    }
+    return 0;
+}

@@ -7,11 +7,14 @@
 
 #define QUEUE_CHUNK 256  // entries that one work-item of scan_queue and scatter_queue owns
 
-// Bits of a queue entry's fate, written by roulette_compact.
+// Bits of a queue entry's fate, settled by roulette_compact.
 #define FATE_ACTIVE 1u  // the slot holds a path in the next iteration too: this one, or its next sample's
 #define FATE_ENDED 2u   // this path is over
 
+#define FATE_CONNECTED 4u  // it traced a connection to a light in this iteration (written by occlusion)
+
 #define DEPTH_BINS 16  // path lengths counted apart: 0 .. 14 scatterings, and longer
+#define STATISTICS (DEPTH_BINS + 1)  // and connections traced
 
 typedef struct {
     shared_uint active;

@@ -1,5 +1,5 @@
 // Traces the pending connections and adds what arrives.
-// reads: queue, shadows, bvh    writes: radiances
+// reads: queue, shadows, bvh    writes: radiances, fates
 // One work-item an active path.
 
 #include "geometry/bvh.cl"
@@ -16,11 +16,13 @@ kernel void occlusion(
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
     global const float* restrict shadows,
-    global float* restrict radiances) {
+    global float* restrict radiances,
+    global uchar* restrict fates) {
     const uint i = (uint)get_global_id(0);
     if (i >= sizes->active) return;
     const int slot = (int)queue[i];
     const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
+    fates[i] = t_max > 0.0f ? FATE_CONNECTED : 0u;
     if (t_max <= 0.0f) return;
     const int blocked = any_hit(
         nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot], PLANE(shadows, SHADOW_ORIGIN_Y)[slot],

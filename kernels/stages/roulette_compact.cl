@@ -43,5 +43,6 @@ kernel void roulette_compact(
     const uint pass = PLANE(ids, ID_PASS)[slot];
     const int has_next = PLANE(ids, ID_SAMPLE)[slot] + 1 < plan[(int)pass].samples ||
                          PLANE(ids, ID_CELL)[slot] + params->pool < params->cells;
-    fates[i] = (uchar)((!ends || has_next ? FATE_ACTIVE : 0u) | (ends ? FATE_ENDED : 0u));
+    const uint connected = SAMPLE_LIGHTS ? fates[i] : 0u;
+    fates[i] = (uchar)(connected | (!ends || has_next ? FATE_ACTIVE : 0u) | (ends ? FATE_ENDED : 0u));
 }

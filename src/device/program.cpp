@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <regex>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace wavepath {
@@ -62,30 +62,46 @@ std::string quoted(const std::string& path) {
     return text + '"';
 }
 
+// A preprocessor line, "# include "x.h"  // why" -> {"include", "\"x.h\"  // why"}; both empty for
+// any other line.
+struct Directive {
+    std::string_view word, rest;
+};
+
+std::string_view without_leading_blanks(std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
+}
+
+Directive directive_of(std::string_view line) {
+    line = without_leading_blanks(line);
+    if (!line.starts_with('#')) return {};
+    line = without_leading_blanks(line.substr(1));
+    const std::size_t word_end =
+        std::min(line.find_first_not_of("abcdefghijklmnopqrstuvwxyz"), line.size());
+    return {line.substr(0, word_end), without_leading_blanks(line.substr(word_end))};
+}
+
 // Shared headers tell the two languages apart by #ifdef __cplusplus; what they include for C++ is
 // no kernel file.
 class HostOnlyLines {
   public:
-    // Whether C++ alone sees `line`. To be asked for every directive of a file, in order.
-    bool contain(const std::string& line) {
-        static const std::regex directive(R"(^\s*#\s*(ifdef\s+__cplusplus\b|if|else|elif|endif))");
-        std::smatch match;
-        if (!std::regex_search(line, match, directive)) return host_depth_ != 0;
-        const std::string word = match[1];
-        if (word.starts_with("if")) {
+    // Whether C++ alone sees the line. To be asked for every directive of a file, in order.
+    bool contain(const Directive& directive) {
+        if (directive.word.starts_with("if")) {
             ++depth_;
-            if (host_depth_ == 0 && word != "if") host_depth_ = depth_;
-            return host_depth_ != 0;
+            if (host_depth_ == 0 && directive.word == "ifdef" &&
+                directive.rest.starts_with("__cplusplus"))
+                host_depth_ = depth_;
+        } else if (directive.word.starts_with("el") || directive.word == "endif") {
+            if (depth_ == host_depth_) host_depth_ = 0;
+            if (directive.word == "endif") --depth_;
         }
-        if (depth_ == host_depth_) host_depth_ = 0;
-        if (word == "endif") --depth_;
         return host_depth_ != 0;
     }
 
   private:
     int depth_ = 0;
-    int host_depth_ =
-        0;  // nesting depth of the #ifdef __cplusplus around the line; 0: there is none
+    int host_depth_ = 0;  // depth of the #ifdef __cplusplus around the line; 0: there is none
 };
 
 // Appends files to a source, each once, with #line before and after.
@@ -95,58 +111,67 @@ class Assembler {
 
     void add(const std::string& name, const std::string& text) {
         if (!added_.insert(name).second) return;
-        static const std::regex directive(R"re(^\s*#\s*(?:include\s*"([^"]+)"|pragma\s+once))re");
         const std::string path = kernel_path(name);
         source_ += fmt::format("#line 1 {}\n", quoted(path));
         std::istringstream lines(text);
         HostOnlyLines host_only;
-        std::smatch match;
         std::string line;
         for (int number = 1; std::getline(lines, line); ++number) {
-            const bool is_directive =
-                line.find_first_not_of(" \t") == line.find('#') && !line.empty();
-            if (!is_directive || host_only.contain(line) ||
-                !std::regex_search(line, match, directive)) {
+            const Directive directive = directive_of(line);
+            if (host_only.contain(directive)) {
                 source_ += line + '\n';
-                continue;
+            } else if (directive.word == "include" && directive.rest.starts_with('"')) {
+                include(directive.rest, path, number);
+                source_ += fmt::format("#line {} {}\n", number + 1, quoted(path));
+            } else if (directive.word == "pragma" && directive.rest.starts_with("once")) {
+                source_ += '\n';  // compilers warn of it outside a header: to them this is one file
+            } else {
+                source_ += line + '\n';
             }
-            if (!match[1].matched) {
-                source_ += '\n';  // #pragma once: done here, and compilers warn of it in what is
-                                  // one file to them
-                continue;
-            }
-            const auto included = find_kernel_file(match[1]);
-            if (!included)
-                throw Error(
-                    "{}:{}: #include \"{}\": there is no such kernel file; paths start at the "
-                    "kernel folder",
-                    path, number, match[1].str());
-            add(match[1], *included);
-            source_ += fmt::format("#line {} {}\n", number + 1, quoted(path));
         }
     }
 
     const std::string& source() const { return source_; }
 
   private:
+    // `quoted_name` begins with the name in quotes.
+    void include(std::string_view quoted_name, const std::string& includer, int line) {
+        const std::string name(quoted_name.substr(1, quoted_name.find('"', 1) - 1));
+        const auto text = find_kernel_file(name);
+        if (!text)
+            throw Error(
+                "{}:{}: #include \"{}\": there is no such kernel file; paths start at the kernel "
+                "folder",
+                includer, line, name);
+        add(name, *text);
+    }
+
     std::string source_;
     std::set<std::string> added_;
 };
 
-// The first error of a log in clang's form, which PoCL, Mesa, Intel, AMD and NVIDIA share up to the
-// order of "error:" and place: "kernels/a.cl:7:44: error: what" or "error: kernels/a.cl:7:44:
-// what".
+// Whether `text` ends in ":line:column".
+bool is_place(std::string_view text) {
+    for (int numbers = 0; numbers < 2; ++numbers) {
+        const std::size_t digits = text.find_last_not_of("0123456789");
+        if (digits == std::string_view::npos || digits + 1 == text.size() || text[digits] != ':')
+            return false;
+        text = text.substr(0, digits);
+    }
+    return !text.empty();
+}
+
+// The first error of a log in clang's form, which most drivers share up to the order of "error:"
+// and place: "kernels/a.cl:7:44: error: what", or PoCL's "error: kernels/a.cl:7:44: what".
 std::string first_error(const std::string& log) {
-    static const std::regex place_first(R"((\S+:\d+:\d+: )(?:fatal )?error: (.*))");
-    static const std::regex error_first(R"(error: (\S+:\d+:\d+: )(.*))");
     std::istringstream lines(log);
-    std::smatch match;
     for (std::string line; std::getline(lines, line);) {
-        line.resize(
-            std::min(line.size(), std::size_t{1000}));  // std::regex recurses for each character
-        if (std::regex_search(line, match, place_first) ||
-            std::regex_search(line, match, error_first))
-            return match[1].str() + match[2].str();
+        const std::size_t found = line.find("error: ");
+        if (found == std::string::npos) continue;
+        const std::string after = line.substr(found + 7);
+        if (is_place(std::string_view(after).substr(0, after.find(": ")))) return after;
+        const std::string before = line.substr(0, line.find(": "));
+        if (is_place(before)) return before + ": " + after;
     }
     return "the kernels do not build";
 }

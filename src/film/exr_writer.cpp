@@ -53,8 +53,6 @@ Image decode(Imf::InputFile& file, const std::string& path) {
             "{}: its data window is not its display window; apply oiiotool --croptofull to it",
             path);
     }
-    if (!file.isComplete())
-        throw Error("{}: lacks a part of its pixels; write or copy it again", path);
 
     Image image;
     image.width = static_cast<uint32_t>(window.max.x - window.min.x + 1);

@@ -27,12 +27,12 @@ double length(const Vec3d& a) {
     return std::hypot(a[0], a[1], a[2]);
 }
 
-Camera overview(const NormalisedScene& geometry) {
+Camera overview(const Extent& extent) {
     constexpr double y_fov = std::numbers::pi / 4;
     // the bounding sphere of the unit cube around the origin fits the field of view
-    const double distance = geometry.metres * 0.8660254037844386 / std::sin(y_fov / 2);
+    const double distance = extent.metres * 0.8660254037844386 / std::sin(y_fov / 2);
     const Vec3d towards_eye = normalized({0.25, 0.35, 1.0});
-    return look_at(plus(geometry.centre, times(towards_eye, distance)), geometry.centre, y_fov);
+    return look_at(plus(extent.centre, times(towards_eye, distance)), extent.centre, y_fov);
 }
 
 void store(float& x, float& y, float& z, const Vec3d& v) {
@@ -57,9 +57,9 @@ Camera look_at(const Vec3d& eye, const Vec3d& target, double y_fov) {
     return camera;
 }
 
-Camera choose_camera(const Scene& scene, const NormalisedScene& geometry, const std::string& selector) {
+Camera choose_camera(const Scene& scene, const std::string& selector) {
     if (selector.empty() && scene.cameras.empty()) {
-        Camera camera = overview(geometry);
+        Camera camera = overview(extent_of(scene));
         camera.name = "overview";
         return camera;
     }
@@ -81,7 +81,7 @@ void set_camera(RenderParams& params, const Camera& camera, const NormalisedScen
     const Vec3d y = normalized(axis(camera.to_world, 1));
     const Vec3d forward = times(normalized(axis(camera.to_world, 2)), -1);
     const Vec3d eye = geometry.to_normalised(axis(camera.to_world, 3));
-    const double half_height = camera.orthographic ? camera.y_mag / geometry.metres : std::tan(camera.y_fov / 2);
+    const double half_height = camera.orthographic ? camera.y_mag / geometry.extent.metres : std::tan(camera.y_fov / 2);
     const double pixel = 2 * half_height / height;
     const Vec3d to_corner = plus(times(x, -0.5 * pixel * width), times(y, half_height));
     const Vec3d corner = plus(to_corner, camera.orthographic ? eye : forward);
@@ -90,7 +90,7 @@ void set_camera(RenderParams& params, const Camera& camera, const NormalisedScen
     store(params.right_x, params.right_y, params.right_z, times(x, pixel));
     store(params.down_x, params.down_y, params.down_z, times(y, -pixel));
     params.orthographic = camera.orthographic ? 1 : 0;
-    params.metres = static_cast<float>(geometry.metres);
+    params.metres = static_cast<float>(geometry.extent.metres);
     params.width = width;
     params.height = height;
 }

@@ -166,8 +166,7 @@ void for_each_row(
     }
 }
 
-// Rows that no buffer view holds are zero: the only place where the file's size does not bound
-// their number.
+// Rows that no buffer view holds are zero, and their number is not bounded by the file's size.
 void check_count(const GltfFile& file, const tinygltf::Accessor& accessor, std::string_view where) {
     constexpr std::size_t most_unbacked = std::size_t{1} << 24;
     if (accessor.count == 0) file.fail(where, "holds no rows; remove it or export again");

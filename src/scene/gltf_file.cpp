@@ -20,8 +20,8 @@ constexpr std::array<std::string_view, 5> supported_extensions{
     "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
     "KHR_materials_specular", "KHR_mesh_quantization"};
 
-constexpr std::size_t glb_header_size =
-    20;  // magic, version, length; length and type of the JSON chunk
+// Magic, version, length; length and type of the JSON chunk.
+constexpr std::size_t glb_header_size = 20;
 
 std::vector<unsigned char> read_bytes(const fs::path& path) {
     std::error_code status;
@@ -87,22 +87,19 @@ bool is_nested_deeper_than(std::string_view json, int limit) {
     return false;
 }
 
-// tinygltf looks for files in the working directory too, as "./name": what is rendered must not
-// depend on it.
+// tinygltf looks in the working directory too, as "./name": what is rendered must not depend on it.
 bool is_file_beside_scene(const std::string& path, void*) {
     std::error_code status;
     return fs::path(path).is_absolute() && fs::is_regular_file(path, status);
 }
 
-// tinygltf decodes every image while it parses and gives the whole file up for one it cannot
-// decode.
+// tinygltf would decode every image while it parses, and fail for one that it cannot decode.
 bool leave_image_encoded(
     tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
     return true;
 }
 
-// What tinygltf holds against the file; empty: nothing. It also reports errors while it claims
-// success.
+// What tinygltf holds against the file, also where it claims success; empty: nothing.
 std::string parse(
     std::span<const unsigned char> bytes, const fs::path& folder, tinygltf::Model& model) {
     tinygltf::TinyGLTF parser;
@@ -184,8 +181,7 @@ GltfFile read_gltf_file(const fs::path& path) {
             "{}: JSON is nested deeper than {} levels; export again", file.name, max_nesting);
 
     const std::string error = parse(bytes, fs::absolute(path).parent_path(), file.model);
-    // Version and extensions are known even after a failure, and often its reason: they speak
-    // first.
+    // Version and extensions are known even after a failure, and often its reason: they go first.
     check_version(file);
     check_required_extensions(file);
     if (!error.empty())

@@ -13,8 +13,7 @@
 namespace wavepath {
 namespace {
 
-// Instances of meshes that are read when a node first asks for them: what the scene does not reach
-// costs nothing.
+// Instances of meshes, each read when a node first asks for it: the rest of the file costs nothing.
 class MeshInstancer {
   public:
     MeshInstancer(const GltfFile& file, Scene& scene, Ignored& ignored)

@@ -6,8 +6,7 @@
 namespace wavepath {
 namespace {
 
-// Factors that were rounded to float on their way into the file may pass the ends of their range by
-// this much.
+// By so much factors may pass the ends of their range that were rounded on their way to the file.
 constexpr double rounding = 1e-6;
 constexpr double unbounded = std::numeric_limits<float>::max();
 
@@ -34,13 +33,10 @@ class MaterialReader {
 
   private:
     float factor(const char* name, double value, double most, double least = 0) const {
-        if (!(value >= least - rounding && value <= most + rounding)) {
-            if (most == unbounded)
-                file_.fail(
-                    where_, "{} is {}, less than {}; repair the material", name, value, least);
+        if (!(value >= least - rounding && value <= most + rounding))
             file_.fail(
-                where_, "{} is {}, not in {} .. {}; repair the material", name, value, least, most);
-        }
+                where_, "{} is {}, not in {} .. {:g}; repair the material", name, value, least,
+                most);
         return static_cast<float>(std::clamp(value, least, most));
     }
 

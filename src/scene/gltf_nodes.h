@@ -23,8 +23,7 @@ std::vector<PlacedNode> place_nodes(const GltfFile& file);
 // section 3.10.2].
 std::optional<Camera> read_camera(const GltfFile& file, const PlacedNode& placed);
 
-// KHR_lights_punctual: the node gives place and direction, its scale changes neither intensity nor
-// range.
+// KHR_lights_punctual: the node gives place and direction; its scale does not change the light.
 std::optional<PunctualLight> read_light(const GltfFile& file, const PlacedNode& placed);
 
 }  // namespace wavepath

@@ -105,29 +105,36 @@ void append_instance(NormalisedScene& out, const Primitive& primitive, const Mat
 
 PunctualLight normalised_light(const NormalisedScene& space, PunctualLight light) {
     light.position = space.to_normalised(light.position);
-    light.range /= space.metres;
+    light.range /= space.extent.metres;
     if (light.kind != LightKind::directional)
-        for (float& channel : light.intensity) channel = static_cast<float>(channel / (space.metres * space.metres));
+        for (float& channel : light.intensity) channel = static_cast<float>(channel / (space.extent.metres * space.extent.metres));
     return light;
 }
 
 }  // namespace
 
 Vec3d NormalisedScene::to_normalised(const Vec3d& world) const {
-    return {(world[0] - centre[0]) / metres, (world[1] - centre[1]) / metres, (world[2] - centre[2]) / metres};
+    Vec3d p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = (world[k] - extent.centre[k]) / extent.metres;
+    return p;
+}
+
+Extent extent_of(const Scene& scene) {
+    const Bounds bounds = world_bounds(scene);
+    Extent extent;
+    extent.metres = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        extent.centre[k] = 0.5 * (bounds.low[k] + bounds.high[k]);
+        extent.metres = std::max(extent.metres, bounds.high[k] - bounds.low[k]);
+    }
+    if (!std::isfinite(extent.metres) || extent.metres <= 0)
+        throw Error("{}: the scene's extent is {} m; give it triangles with an area", scene.name, extent.metres);
+    return extent;
 }
 
 NormalisedScene normalise(const Scene& scene) {
-    const Bounds bounds = world_bounds(scene);
     NormalisedScene out;
-    out.metres = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        out.centre[k] = 0.5 * (bounds.low[k] + bounds.high[k]);
-        out.metres = std::max(out.metres, bounds.high[k] - bounds.low[k]);
-    }
-    if (!std::isfinite(out.metres) || out.metres <= 0)
-        throw Error("{}: the scene's extent is {} m; give it triangles with an area", scene.name, out.metres);
-
+    out.extent = extent_of(scene);
     bool normals = false;
     bool colors = false;
     for (const Instance& instance : scene.instances) {

@@ -7,11 +7,19 @@
 
 namespace wavepath {
 
+// Bounding box of all instances: its centre and its longest side [m].
+struct Extent {
+    Vec3d centre{0, 0, 0};
+    double metres = 1;
+};
+
+// Throws Error where the extent is zero or not finite.
+Extent extent_of(const Scene& scene);
+
 // The scene's triangles in one list, moved and scaled so that their bounding box is centred at the origin and its
-// longest side is 1: offsets and epsilons are then free of scale. world = centre + metres * normalised.
+// longest side is 1: offsets and epsilons are then free of scale. world = extent.centre + extent.metres * normalised.
 struct NormalisedScene {
-    Vec3d centre{0, 0, 0};         // [m]
-    double metres = 1;             // one unit [m]
+    Extent extent;
     std::vector<float> positions;  // 9 a triangle
     std::vector<float> normals;    // 9 a triangle, or empty: every triangle is flat
     std::vector<float> colors;     // 9 a triangle, or empty: all white

@@ -1,5 +1,4 @@
-// Affine transforms in double: a node may sit 10^3 extents away from the origin before the scene is
-// normalised.
+// Affine transforms in double: a scene may lie 10^3 times its size away from the origin.
 #pragma once
 
 #include "scene/scene.h"

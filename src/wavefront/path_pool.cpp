@@ -32,12 +32,12 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
       ended(device, slots, "path queue"),
       fates(device, slots, "path queue"),
       chunk_counts(device, chunks(), "path queue"),
-      path_lengths(device, std::vector<cl_uint>(std::size_t{DEPTH_BINS} * chunks(), 0), "path lengths") {}
+      statistics(device, std::vector<cl_uint>(std::size_t{STATISTICS} * chunks(), 0), "statistics") {}
 
 std::size_t PathPool::bytes() const {
     return rays.bytes() + hits.bytes() + throughputs.bytes() + radiances.bytes() + shadows.bytes() + branches.bytes() +
            ids.bytes() + active[0].bytes() + active[1].bytes() + sizes[0].bytes() + sizes[1].bytes() + ended.bytes() +
-           fates.bytes() + chunk_counts.bytes() + path_lengths.bytes();
+           fates.bytes() + chunk_counts.bytes() + statistics.bytes();
 }
 
 }  // namespace wavepath

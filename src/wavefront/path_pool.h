@@ -24,7 +24,7 @@ struct PathPool {
     DeviceArray<cl_uint> ended;
     DeviceArray<cl_uchar> fates;
     DeviceArray<cl_uint2> chunk_counts;
-    DeviceArray<cl_uint> path_lengths;  // DEPTH_BINS a chunk
+    DeviceArray<cl_uint> statistics;  // STATISTICS a chunk
 
     uint32_t chunks() const { return (slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK; }
     std::size_t bytes() const;

@@ -84,14 +84,15 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
             shade_emission_->launch(device_, sizes.active, params_, lengths, queue, scene_.triangles, scene_.materials, scene_.lights, pool_.rays, pool_.hits, pool_.throughputs, pool_.radiances);
         if (direct_light_) {
             direct_light_->launch(device_, sizes.active, params_, lengths, queue, scene_.triangles, scene_.materials, scene_.lights, scene_.environment, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids, pool_.shadows);
-            occlusion_->launch(device_, sizes.active, params_, lengths, queue, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances);
+            occlusion_->launch(device_, sizes.active, params_, lengths, queue, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
         }
         sample_indirect_.launch(device_, sizes.active, params_, lengths, queue, scene_.triangles, scene_.materials, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids);
         roulette_compact_.launch(device_, sizes.active, params_, lengths, queue, plan_, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
         const uint64_t chunks = (sizes.active + QUEUE_CHUNK - 1) / QUEUE_CHUNK;
         scan_queue_.launch(device_, chunks, lengths, pool_.fates, pool_.chunk_counts);
-        scatter_queue_.launch(device_, chunks, params_, lengths, queue, pool_.fates, pool_.chunk_counts, pool_.ids, pool_.active[next], pool_.ended, pool_.sizes[next], pool_.path_lengths);
+        scatter_queue_.launch(device_, chunks, params_, lengths, queue, pool_.fates, pool_.chunk_counts, pool_.ids, pool_.active[next], pool_.ended, pool_.sizes[next], pool_.statistics);
 
+        closest_rays_ += sizes.active;
         sizes = read_sizes(pool_.sizes[next]);
         if (sizes.runaway_lock != 0) report_runaway(sizes, window);
         accumulate_.launch(device_, sizes.ended, params_, pool_.sizes[next], pool_.ended, plan_, pool_.radiances, pool_.ids, cells_, cell_flags_);
@@ -118,11 +119,16 @@ void QueueManager::report_runaway(const QueueSizes& sizes, const Window& window)
         sizes.runaway_pixel, row.samples_before + row.first_sample + sizes.runaway_sample, MAX_SCATTERINGS);
 }
 
-std::vector<uint64_t> QueueManager::path_lengths() const {
-    const std::vector<cl_uint> rows = pool_.path_lengths.read(device_);
-    std::vector<uint64_t> lengths(DEPTH_BINS, 0);
-    for (std::size_t i = 0; i < rows.size(); ++i) lengths[i % DEPTH_BINS] += rows[i];
-    return lengths;
+RayCounts QueueManager::ray_counts() const {
+    const std::vector<cl_uint> rows = pool_.statistics.read(device_);
+    RayCounts counts;
+    counts.path_lengths.assign(DEPTH_BINS, 0);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::size_t column = i % STATISTICS;
+        (column < DEPTH_BINS ? counts.path_lengths[column] : counts.connections) += rows[i];
+    }
+    counts.closest = closest_rays_;
+    return counts;
 }
 
 std::size_t QueueManager::bytes() const {

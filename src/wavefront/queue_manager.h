@@ -25,6 +25,12 @@ struct WorkGroups {
     uint32_t streaming = 256;
 };
 
+struct RayCounts {
+    std::vector<uint64_t> path_lengths;  // paths that ended after 1, 2, ... closest-hit rays; the last of DEPTH_BINS: and more
+    uint64_t closest = 0;                // rays traced by intersect
+    uint64_t connections = 0;            // rays traced by occlusion
+};
+
 class QueueManager {
   public:
     // `max_cells`: the most units of work of one window.
@@ -40,7 +46,7 @@ class QueueManager {
     // Throws Error for a path of MAX_SCATTERINGS.
     void render(const Window& window, RenderParams params, Film& film);
 
-    std::vector<uint64_t> path_lengths() const;  // paths that ended after tracing 1, 2, ... rays; DEPTH_BINS of them
+    RayCounts ray_counts() const;
     uint64_t iterations() const { return iterations_; }
     std::size_t bytes() const;
 
@@ -66,6 +72,7 @@ class QueueManager {
     Floats cells_;
     Uints cell_flags_;
     uint64_t iterations_ = 0;
+    uint64_t closest_rays_ = 0;
 
     Stage<Params, Uints, Uints, Sizes, Uints, Floats> assign_units_;
     Stage<Params, Sizes, Uints, Plan, Uints, Floats, Floats, Floats> generate_rays_;
@@ -77,7 +84,7 @@ class QueueManager {
     std::optional<Stage<Params, Sizes, Uints, Floats, Array<DeviceMaterial>, Array<DeviceLight>, Array<EnvironmentEntry>, Floats,
         Floats, Floats, Uints, Floats>>
         direct_light_;
-    std::optional<Stage<Params, Sizes, Uints, Array<BvhNode>, Array<TriangleBlock>, Floats, Floats>> occlusion_;
+    std::optional<Stage<Params, Sizes, Uints, Array<BvhNode>, Array<TriangleBlock>, Floats, Floats, Array<cl_uchar>>> occlusion_;
     Stage<Params, Sizes, Uints, Floats, Array<DeviceMaterial>, Floats, Floats, Floats, Uints> sample_indirect_;
     Stage<Params, Sizes, Uints, Plan, Uints, Floats, Floats, Array<cl_uchar>> roulette_compact_;
     Stage<Sizes, Array<cl_uchar>, Array<cl_uint2>> scan_queue_;

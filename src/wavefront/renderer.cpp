@@ -119,16 +119,21 @@ RenderResult render(
 
     const RenderParams params = scene_params(scene, geometry, tables, settings);
     Schedule schedule(settings, max_cells);
-    while (!schedule.plan().done()) {
+    const SamplePlan& plan = schedule.plan();
+    const auto relative_error = [&] { return develop(device, film, plan.samples_taken(), plan.batches_closed()).relative_error; };
+    while (!plan.done()) {
         for (const Window& window : schedule.next(result.times.render)) queues.render(window, params, film);
         const double seconds = watch.lap();
         schedule.took(seconds);
         result.times.render += seconds;
-        result.interrupted = progress && !progress({schedule.plan().samples_taken(), result.times.render});
-        if (result.interrupted || (settings.seconds > 0 && result.times.render >= settings.seconds)) break;
-        if (settings.target_error > 0 &&
-            develop(device, film, schedule.plan().samples_taken(), schedule.plan().batches_closed()).relative_error < settings.target_error)
-            break;
+        if (progress) {
+            const RayCounts rays = queues.ray_counts();
+            result.interrupted = !progress(
+                {plan.samples_taken(), settings.samples, result.times.render, rays.closest + rays.connections, relative_error});
+        }
+        const bool timed_out = settings.seconds > 0 && result.times.render >= settings.seconds;
+        const bool on_target = settings.target_error > 0 && relative_error() < settings.target_error;
+        if (result.interrupted || timed_out || on_target) break;
     }
 
     result.samples = schedule.plan().samples_taken();
@@ -136,7 +141,7 @@ RenderResult render(
     result.film = develop(device, film, result.samples, result.batches);
     result.profile = profile.rows();
     result.device_clock = profile.device_clock();
-    result.path_lengths = queues.path_lengths();
+    result.rays = queues.ray_counts();
     result.iterations = queues.iterations();
     result.triangles = geometry.triangle_count();
     result.dropped_triangles = geometry.dropped;

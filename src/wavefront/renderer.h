@@ -35,7 +35,10 @@ struct RenderTimes {
 
 struct RenderProgress {
     uint64_t samples = 0;      // a pixel, so far
+    uint64_t samples_wanted = 0;  // 0: open-ended
     double seconds = 0;        // of rendering
+    uint64_t rays = 0;
+    std::function<double()> relative_error;  // reads the film back
 };
 
 struct RenderResult {
@@ -45,8 +48,7 @@ struct RenderResult {
     RenderTimes times;
     std::vector<ProfileRow> profile;
     bool device_clock = true;
-    std::vector<uint64_t> path_lengths;  // paths by closest-hit rays traced: 1, 2, ...
-    uint64_t shadow_rays = 0;  // upper bound: connections offered to `occlusion`
+    RayCounts rays;
     uint64_t iterations = 0;
     std::size_t triangles = 0, dropped_triangles = 0, lights = 0, bvh_nodes = 0, bvh_blocks = 0;
     std::size_t scene_bytes = 0, pool_bytes = 0, film_bytes = 0;  // on the device

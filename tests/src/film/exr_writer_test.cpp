@@ -118,28 +118,31 @@ TEST(ExrWriter, CheckWritableTouchesNothing) {
         HasSubstr("none/new.exr: cannot be written: folder "));
 }
 
-TEST(ExrReader, ConvertsHalfAndUnsignedAndTilesAtAnyOrigin) {
-    const TemporaryFolder folder;
-    const Imath::Box2i window({-3, 7}, {1, 9});  // 5 x 3
+// 5 x 3 texels in tiles of 2 x 2 away from the origin: half i / 4 and unsigned 10^6 i.
+void write_tiled(const std::filesystem::path& path) {
+    const Imath::Box2i window({-3, 7}, {1, 9});
+    std::vector<half> halves(15);
+    std::vector<uint32_t> counts(15);
+    for (uint32_t i = 0; i < 15; ++i) {
+        halves[i] = 0.25f * static_cast<float>(i);
+        counts[i] = 1000000 * i;
+    }
     Imf::Header header(window, window);
     header.setTileDescription({2, 2});
     header.setType(Imf::TILEDIMAGE);
-    std::vector<half> halves;
-    std::vector<uint32_t> counts;
-    for (uint32_t i = 0; i < 15; ++i) {
-        halves.emplace_back(0.25f * static_cast<float>(i));
-        counts.push_back(1000000 * i);
-    }
-    Imf::FrameBuffer planes;
     header.channels().insert("Y", Imf::Channel(Imf::HALF));
     header.channels().insert("id", Imf::Channel(Imf::UINT));
+    Imf::FrameBuffer planes;
     planes.insert("Y", Imf::Slice::Make(Imf::HALF, halves.data(), window));
     planes.insert("id", Imf::Slice::Make(Imf::UINT, counts.data(), window));
-    {
-        Imf::TiledOutputFile file((folder / "tiled.exr").c_str(), header);
-        file.setFrameBuffer(planes);
-        file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
-    }
+    Imf::TiledOutputFile file(path.c_str(), header);
+    file.setFrameBuffer(planes);
+    file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+}
+
+TEST(ExrReader, ConvertsHalfAndUnsignedAndTilesAtAnyOrigin) {
+    const TemporaryFolder folder;
+    write_tiled(folder / "tiled.exr");
     const Image image = read_exr(folder / "tiled.exr");
     ASSERT_EQ(image.width, 5u);
     ASSERT_EQ(image.height, 3u);
@@ -151,13 +154,16 @@ TEST(ExrReader, ConvertsHalfAndUnsignedAndTilesAtAnyOrigin) {
 
 TEST(ExrReader, RefusesEveryTruncation) {
     const TemporaryFolder folder;
-    write_exr(layered_image(), folder / "whole.exr");
-    const std::string whole = folder.read("whole.exr");
-    for (std::size_t size = 0; size < whole.size(); ++size) {
-        const auto path = folder.write("part.exr", std::string_view(whole).substr(0, size));
-        const std::string message = error_of([&] { read_exr(path); });
-        EXPECT_THAT(message, HasSubstr("part.exr: ")) << size << " of " << whole.size() << " bytes";
-        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    write_exr(layered_image(), folder / "scanline.exr");
+    write_tiled(folder / "tiled.exr");
+    for (const char* name : {"scanline.exr", "tiled.exr"}) {
+        const std::string whole = folder.read(name);
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            const auto path = folder.write("part.exr", std::string_view(whole).substr(0, size));
+            const std::string message = error_of([&] { read_exr(path); });
+            EXPECT_THAT(message, HasSubstr("part.exr: ")) << size << " bytes of " << name;
+            EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        }
     }
 }
 

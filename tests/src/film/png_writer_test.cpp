@@ -59,16 +59,18 @@ TEST(PngWriter, EncodesSrgb) {
         (Texels{0, 10, 118, 188, 255, 255, 255, 0, 0}));
 }
 
-TEST(PngWriter, InvertsTheDecodingOfEveryCode) {
-    std::vector<float> linear;
-    Texels codes;
-    for (int code = 0; code < 256; ++code) {
-        const double value = code / 255.0;
-        linear.push_back(static_cast<float>(
-            value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4)));
-        codes.push_back(static_cast<uint8_t>(code));
+TEST(PngWriter, RoundsToTheNearestCode) {
+    for (const double offset : {-0.499, 0.0, 0.499}) {
+        std::vector<float> linear;
+        Texels codes;
+        for (uint8_t code = 1; code < 255; ++code) {
+            const double value = (code + offset) / 255.0;
+            linear.push_back(static_cast<float>(
+                value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4)));
+            codes.push_back(code);
+        }
+        EXPECT_EQ(encoded(linear, 0.0), codes) << offset;
     }
-    EXPECT_EQ(encoded(linear, 0.0), codes);
 }
 
 TEST(PngWriter, ScalesByTwoToTheExposure) {

@@ -101,7 +101,9 @@ TEST(EnvironmentMap, ReadsExr) {
 
 TEST(EnvironmentMap, RefusesEveryTruncation) {
     const TemporaryFolder folder;
-    for (const std::string& whole : {flat_file(), run_length_file()}) {
+    const std::string longer_than_a_buffer = radiance_file("-Y 30 +X 1", std::string(120, '\1'));
+    for (const std::string& whole : {flat_file(), run_length_file(), longer_than_a_buffer}) {
+        EXPECT_EQ(message(folder.write("whole.hdr", whole)), "");
         for (std::size_t size = 0; size < whole.size(); ++size) {
             const auto path = folder.write("part.hdr", std::string_view(whole).substr(0, size));
             EXPECT_THAT(message(path), HasSubstr("part.hdr: is "))

@@ -1,0 +1,127 @@
+#include "measure/report.h"
+
+#include <sys/resource.h>
+
+#include <cmath>
+
+namespace wavepath {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json number(double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+uint64_t peak_host_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+ordered_json settings_report(const RenderSettings& settings) {
+    return {
+        {"width", settings.width},
+        {"height", settings.height},
+        {"camera", settings.camera.name},
+        {"samples", settings.samples},
+        {"time_limit_s", settings.seconds},
+        {"target_error", settings.target_error},
+        {"seed", settings.seed},
+        {"method", settings.method.name},
+        {"light_choice", settings.method.light_choice == LightChoice::area ? "area" : "power"},
+        {"termination", settings.termination.text()},
+        {"sampler", settings.sobol ? "sobol" : "independent"},
+        {"splits", {1, 1, settings.splits}},
+        {"split_depth", settings.split_depth},
+    };
+}
+
+}  // namespace
+
+ordered_json profile_report(const RenderResult& result) {
+    double kernels = 0;
+    ordered_json rows = ordered_json::array();
+    for (const ProfileRow& row : result.profile) {
+        kernels += row.seconds;
+        const auto items = static_cast<double>(row.items);
+        rows.push_back({
+            {"kernel", row.name},
+            {"launches", row.launches},
+            {"items", row.items},
+            {"seconds", row.seconds},
+            {"share", number(row.seconds / result.times.render)},
+            {"ns_per_item", number(1e9 * row.seconds / items)},
+            {"items_per_s", number(items / row.seconds)},
+        });
+    }
+    return {
+        {"device_clock", result.device_clock},
+        {"kernels", rows},
+        {"kernel_seconds", kernels},
+        {"outside_kernels_seconds", result.times.render - kernels},
+        {"iterations", result.iterations},
+    };
+}
+
+ordered_json render_report(const Device& device, const RenderJob& job, const RenderResult& result) {
+    const double pixels = double{1} * job.settings.width * job.settings.height;
+    const double samples = pixels * static_cast<double>(result.samples);
+    const double rays = static_cast<double>(result.rays.closest + result.rays.connections);
+    uint64_t paths = 0;
+    for (const uint64_t n : result.rays.path_lengths) paths += n;
+    ordered_json report = {
+        {"schema", report_schema},
+        {"program", "wavepath"},
+        {"version", WAVEPATH_VERSION},
+        {"settings", settings_report(job.settings)},
+        {"device",
+         {{"platform", device.info.platform},
+          {"name", device.info.name},
+          {"version", device.info.version},
+          {"driver", device.info.driver},
+          {"compute_units", device.info.compute_units}}},
+        {"scene",
+         {{"name", job.scene.name},
+          {"triangles", result.triangles},
+          {"zero_area_triangles", result.dropped_triangles},
+          {"materials", job.scene.materials.size()},
+          {"lights", result.lights},
+          {"bvh_nodes", result.bvh_nodes},
+          {"bvh_blocks", result.bvh_blocks}}},
+        {"times_s",
+         {{"load", job.load_seconds},
+          {"normalise", result.times.normalise},
+          {"bvh_build", result.times.bvh_build},
+          {"upload", result.times.upload},
+          {"program_build", result.times.program_build},
+          {"render", result.times.render}}},
+        {"samples_per_pixel", result.samples},
+        {"samples_per_s", number(samples / result.times.render)},
+        {"batches", result.batches},
+        {"rays",
+         {{"closest_hit", result.rays.closest},
+          {"occlusion", result.rays.connections},
+          {"per_s", number(rays / result.times.render)}}},
+        {"path_lengths", result.rays.path_lengths},
+        {"mean_path_length", number(static_cast<double>(result.rays.closest) / static_cast<double>(paths))},
+        {"relative_error", number(result.film.relative_error)},
+        {"bias", job.settings.termination.bias()},
+        {"nonfinite_samples", result.film.nonfinite.samples},
+        {"interrupted", result.interrupted},
+        {"memory_bytes",
+         {{"host_peak", peak_host_memory()},
+          {"device_scene", result.scene_bytes},
+          {"device_pool", result.pool_bytes},
+          {"device_film", result.film_bytes}}},
+        {"warnings", result.warnings},
+    };
+    if (result.film.nonfinite.samples > 0)
+        report["first_nonfinite"] = {
+            {"x", result.film.nonfinite.x}, {"y", result.film.nonfinite.y}, {"sample", result.film.nonfinite.sample}};
+    report["profile"] = profile_report(result);
+    return report;
+}
+
+}  // namespace wavepath

@@ -1,0 +1,19 @@
+// What `--json` writes: everything a render did, for scripts (schema in docs/report.md).
+#pragma once
+
+#include "commands/render_options.h"
+#include "wavefront/renderer.h"
+
+#include <nlohmann/json.hpp>
+
+namespace wavepath {
+
+inline constexpr int report_schema = 1;
+
+// Non-finite numbers become null.
+nlohmann::ordered_json render_report(const Device& device, const RenderJob& job, const RenderResult& result);
+
+// Kernel rows with shares and rates, and the time outside kernels.
+nlohmann::ordered_json profile_report(const RenderResult& result);
+
+}  // namespace wavepath
