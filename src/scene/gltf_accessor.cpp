@@ -125,22 +125,16 @@ std::size_t checked_sparse_offset(const GltfFile& file, int byte_offset, std::st
     return static_cast<std::size_t>(byte_offset);
 }
 
-// Hands the rows of `accessor` to `store(row, bytes)`, then those that its sparse part replaces.
+// Hands `store(row, bytes)` the rows that the sparse part of `accessor` replaces.
 template <typename Store>
-void for_each_row(
+void for_each_sparse_row(
     const GltfFile& file,
     const tinygltf::Accessor& accessor,
     std::size_t row_size,
     std::string_view where,
     const Store& store) {
-    if (accessor.bufferView >= 0) {
-        const Rows rows = find_rows(
-            file, accessor.bufferView, accessor.byteOffset, accessor.count, row_size, where);
-        for (std::size_t row = 0; row < accessor.count; ++row) store(row, rows[row]);
-    }
-    if (!accessor.sparse.isSparse) return;
-
     const auto& [count, is_sparse, indices, values] = accessor.sparse;
+    if (!is_sparse) return;
     if (count < 1 || static_cast<std::size_t>(count) > accessor.count)
         file.fail(
             where, "sparse count {} is not in 1 .. {}; repair it or export again", count,
@@ -167,13 +161,39 @@ void for_each_row(
 }
 
 // Rows that no buffer view holds are zero, and their number is not bounded by the file's size.
-void check_count(const GltfFile& file, const tinygltf::Accessor& accessor, std::string_view where) {
-    constexpr std::size_t most_unbacked = std::size_t{1} << 24;
-    if (accessor.count == 0) file.fail(where, "holds no rows; remove it or export again");
-    if (accessor.bufferView < 0 && accessor.count > most_unbacked)
+void check_unbacked_count(const GltfFile& file, std::size_t count, std::string_view where) {
+    constexpr std::size_t most = std::size_t{1} << 24;
+    if (count > most)
         file.fail(
-            where, "{} rows without a bufferView are more than the {} allowed; export again",
-            accessor.count, most_unbacked);
+            where, "{} rows without a bufferView are more than the {} allowed; export again", count,
+            most);
+}
+
+// All rows of `accessor`, `width` values each: `decode(bytes, values)` reads one.
+template <typename T, typename Decode>
+std::vector<T> read_rows(
+    const GltfFile& file,
+    const tinygltf::Accessor& accessor,
+    std::size_t row_size,
+    std::size_t width,
+    std::string_view where,
+    const Decode& decode) {
+    if (accessor.count == 0) file.fail(where, "holds no rows; remove it or export again");
+    Rows rows;
+    if (accessor.bufferView < 0)
+        check_unbacked_count(file, accessor.count, where);
+    else
+        rows = find_rows(
+            file, accessor.bufferView, accessor.byteOffset, accessor.count, row_size, where);
+
+    std::vector<T> values(width * accessor.count);  // the count is checked by now
+    const auto store = [&](std::size_t row, const unsigned char* bytes) {
+        decode(bytes, &values[width * row]);
+    };
+    if (accessor.bufferView >= 0)
+        for (std::size_t row = 0; row < accessor.count; ++row) store(row, rows[row]);
+    for_each_sparse_row(file, accessor, row_size, where, store);
+    return values;
 }
 
 }  // namespace
@@ -187,16 +207,14 @@ std::vector<float> read_vec3(const GltfFile& file, int accessor_index, std::stri
             where,
             "accessor {} has component type {}; export as FLOAT, or as (UNSIGNED_)BYTE or _SHORT",
             accessor_index, accessor.componentType);
-    check_count(file, accessor, where);
 
-    std::vector<float> values(3 * accessor.count);
     const std::size_t size = component_size(accessor.componentType);
     const std::size_t row_size = size * (accessor.type == TINYGLTF_TYPE_VEC3 ? 3 : 4);
-    for_each_row(file, accessor, row_size, where, [&](std::size_t row, const unsigned char* bytes) {
-        for (std::size_t i = 0; i < 3; ++i)
-            values[3 * row + i] =
-                load_float(bytes + i * size, accessor.componentType, accessor.normalized);
-    });
+    std::vector<float> values = read_rows<float>(
+        file, accessor, row_size, 3, where, [&](const unsigned char* bytes, float* row) {
+            for (std::size_t i = 0; i < 3; ++i)
+                row[i] = load_float(bytes + i * size, accessor.componentType, accessor.normalized);
+        });
 
     const auto broken =
         std::ranges::find_if_not(values, [](float value) { return std::isfinite(value); });
@@ -214,13 +232,11 @@ std::vector<std::uint32_t> read_indices(
         file.fail(
             where, "accessor {} is no SCALAR of UNSIGNED_BYTE, _SHORT or _INT; export again",
             accessor_index);
-    check_count(file, accessor, where);
 
-    std::vector<std::uint32_t> indices(accessor.count);
-    for_each_row(
-        file, accessor, component_size(accessor.componentType), where,
-        [&](std::size_t row, const unsigned char* bytes) {
-            indices[row] = load_index(bytes, accessor.componentType);
+    std::vector<std::uint32_t> indices = read_rows<std::uint32_t>(
+        file, accessor, component_size(accessor.componentType), 1, where,
+        [&](const unsigned char* bytes, std::uint32_t* index) {
+            *index = load_index(bytes, accessor.componentType);
         });
 
     const std::uint32_t restart = restart_value(accessor.componentType);

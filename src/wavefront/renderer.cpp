@@ -62,8 +62,12 @@ RenderParams scene_params(const Scene& scene, const NormalisedScene& geometry, c
 // Windows are cut to about a second, so that progress, Ctrl-C and limits are met in time; the picture does not depend on it.
 class Schedule {
   public:
-    Schedule(const RenderSettings& settings, uint64_t max_cells)
-        : plan_(settings.samples), pixels_(settings.width * settings.height), max_cells_(max_cells), seconds_(settings.seconds) {}
+    Schedule(const RenderSettings& settings, uint32_t pool, uint64_t max_cells)
+        : plan_(settings.samples),
+          pixels_(uint64_t{settings.width} * settings.height),
+          least_passes_((refills * pool + pixels_ - 1) / pixels_),
+          max_cells_(max_cells),
+          seconds_(settings.seconds) {}
 
     const SamplePlan& plan() const { return plan_; }
 
@@ -72,7 +76,7 @@ class Schedule {
         const double wanted = seconds_ > 0 ? std::clamp(seconds_ - elapsed, 0.0, 1.0) : 1.0;
         const double passes = rate_ > 0 ? wanted * rate_ : 1;
         const uint64_t fit = std::max<uint64_t>(1, max_cells_ / pixels_);
-        const std::vector<PlanRow> rows = plan_.take(std::clamp<uint64_t>(static_cast<uint64_t>(passes), 1, fit));
+        const std::vector<PlanRow> rows = plan_.take(std::min(fit, std::max(least_passes_, static_cast<uint64_t>(passes))));
         passes_ = rows.size();
         std::vector<Window> windows;
         for (uint64_t first = 0; first < pixels_ && !rows.empty(); first += max_cells_)
@@ -85,8 +89,12 @@ class Schedule {
     }
 
   private:
+    // Units a slot at the least: the pool runs empty at the end of a window.
+    static constexpr uint64_t refills = 4;
+
     SamplePlan plan_;
     uint64_t pixels_;
+    uint64_t least_passes_;
     uint64_t max_cells_;
     double seconds_;
     double rate_ = 0;  // passes/s
@@ -112,13 +120,13 @@ RenderResult render(
     const cl::Program program = build_program(device, assemble_source(features.defines(), QueueManager::kernel_files(features)));
     Profile profile;
     const uint32_t pool = settings.pool > 0 ? settings.pool : device.info.default_pool;
-    const uint64_t max_cells = std::max<uint64_t>(uint64_t{1} << 20U, pool);
+    const uint64_t max_cells = std::max<uint64_t>(uint64_t{1} << 20U, uint64_t{4} * pool);
     QueueManager queues(device, program, features, buffers, pool, max_cells, settings.work_groups, profile);
     Film film(device, settings.width, settings.height);
     result.times.program_build = watch.lap();
 
     const RenderParams params = scene_params(scene, geometry, tables, settings);
-    Schedule schedule(settings, max_cells);
+    Schedule schedule(settings, pool, max_cells);
     const SamplePlan& plan = schedule.plan();
     const auto relative_error = [&] { return develop(device, film, plan.samples_taken(), plan.batches_closed()).relative_error; };
     while (!plan.done()) {
