@@ -19,10 +19,9 @@ typedef struct {
     Vec3 p;        // position [normalised]
     Vec3 ng;       // geometric normal, unit, on the viewer's side
     Vec3 n;        // shading normal, unit, on the viewer's side
-    int front;     // the viewer sees the front face
-    Surface surface;
-    Vec3 emission;  // towards the viewer [radiance]
-    uint light;     // row of the light table, or NO_LIGHT
+    Vec3 base;     // base colour [1]
+    int material;
+    uint light;    // row of the light table if it emits towards the viewer, else NO_LIGHT
 } Interaction;
 
 INLINE Vec3 triangle_corner(global const float* triangle, const int attribute, const int corner) {
@@ -46,38 +45,51 @@ INLINE Vec3 triangle_cross(global const float* triangle) {
         sub3(triangle_corner(triangle, TRIANGLE_CORNERS, 2), a));
 }
 
-// `primitive` < 0 stands for triangle 0: the caller ignores the result.
-INLINE Interaction interact(
+INLINE Interaction find_interaction(
     global const float* triangles,
     global const DeviceMaterial* materials,
     const int primitive,
     const float u,
     const float v,
     const Vec3 direction) {
-    global const float* triangle = triangles + TRIANGLE_FLOATS * max(primitive, 0);
-    global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
+    global const float* triangle = triangles + TRIANGLE_FLOATS * primitive;
     Interaction r;
+    r.material = as_int(triangle[TRIANGLE_MATERIAL]);
+    global const DeviceMaterial* material = materials + r.material;
     r.p = interpolate(triangle, TRIANGLE_CORNERS, u, v);
     const Vec3 face = normalize3(triangle_cross(triangle));
-    r.front = dot3(face, direction) < 0.0f;
-    r.ng = scale3(face, r.front ? 1.0f : -1.0f);
+    const int front = dot3(face, direction) < 0.0f;
+    r.ng = scale3(face, front ? 1.0f : -1.0f);
     r.n = r.ng;
     if (HAS_VERTEX_NORMALS) {
-        const Vec3 smooth_sum = interpolate(triangle, TRIANGLE_NORMALS, u, v);
-        const Vec3 smooth = scale3(normalize3(smooth_sum), r.front ? 1.0f : -1.0f);
+        const Vec3 sum = interpolate(triangle, TRIANGLE_NORMALS, u, v);
+        const Vec3 smooth = scale3(normalize3(sum), front ? 1.0f : -1.0f);
         // A shading normal that the viewer sees from behind would reflect nothing: there the face's own normal serves.
         r.n = select3(dot3(smooth, direction) < 0.0f && dot3(smooth, r.ng) > 0.0f, smooth, r.ng);
     }
-    r.surface.base = vec3(material->base_r, material->base_g, material->base_b);
-    if (HAS_VERTEX_COLORS) r.surface.base = mul3(r.surface.base, interpolate(triangle, TRIANGLE_COLORS, u, v));
-    r.surface.f0 = vec3(material->f0_r, material->f0_g, material->f0_b);
-    r.surface.metallic = material->metallic;
-    r.surface.specular = material->specular;
-    r.surface.alpha = material->alpha;
-    const float emits = r.front || material->double_sided ? 1.0f : 0.0f;
-    r.emission = scale3(vec3(material->emission_r, material->emission_g, material->emission_b), emits);
-    r.light = as_uint(triangle[TRIANGLE_LIGHT]);
+    r.base = vec3(material->base_r, material->base_g, material->base_b);
+    if (HAS_VERTEX_COLORS) r.base = mul3(r.base, interpolate(triangle, TRIANGLE_COLORS, u, v));
+    r.light = front || material->double_sided ? as_uint(triangle[TRIANGLE_LIGHT]) : NO_LIGHT;
     return r;
+}
+
+// The lobes of slot `slot`'s surface.
+INLINE Surface load_surface(
+    global const DeviceMaterial* materials, global const float* surfaces, const size_t stride, const size_t slot) {
+    Surface s;
+    s.base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
+    if (HAS_SPECULAR) {
+        global const DeviceMaterial* material = materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
+        s.f0 = vec3(material->f0_r, material->f0_g, material->f0_b);
+        s.metallic = material->metallic;
+        s.specular = material->specular;
+        s.alpha = material->alpha;
+    }
+    return s;
+}
+
+INLINE Vec3 load_shading_normal(global const float* surfaces, const size_t stride, const size_t slot) {
+    return load3(PLANE(surfaces, HAS_VERTEX_NORMALS ? SURFACE_N_X : SURFACE_NG_X), stride, slot);
 }
 
 // The start of a ray that leaves the surface on the side of the normal `ng`.

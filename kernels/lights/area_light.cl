@@ -42,8 +42,6 @@ INLINE LightSample area_light_sample(
 }
 
 // pdf_w [1/sr] with which light sampling would have chosen the point that a bsdf ray met.
-INLINE float area_light_pdf_w(
-    global const DeviceLight* lights, const uint row, const float distance, const float cos_light) {
-    global const DeviceLight* light = lights + (row == NO_LIGHT ? 0 : (int)row);
+INLINE float area_light_pdf_w(global const DeviceLight* light, const float distance, const float cos_light) {
     return pdf_a_to_w(light->pmf / light->area, distance * distance, cos_light);
 }

@@ -40,5 +40,5 @@ INLINE Vec3 ggx_sample(const Vec3 wo, const float alpha, const Sample2 u) {
     const float r = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
     const SineCosine phi = sincos_2pi(u.v);
     const Vec3 h = add3(vec3(r * phi.cosine, r * phi.sine, z), stretched);
-    return normalize3(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-20f)));
+    return normalize3(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-18f)));  // whose square is a normal number
 }

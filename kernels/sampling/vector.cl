@@ -57,14 +57,15 @@ INLINE Vec3 select3(const int condition, const Vec3 yes, const Vec3 no) {
     return vec3(condition ? yes.x : no.x, condition ? yes.y : no.y, condition ? yes.z : no.z);
 }
 
-// Plane k of a group of planes (shared/path.h).
-#define PLANE(group, k) ((group) + (k) * params->stride)
+// Plane k of a group of planes (shared/path.h). Every kernel reads `stride` before its guard: there it is loop-invariant,
+// and PoCL sees that neighbouring work-items touch neighbouring floats.
+#define PLANE(group, k) ((group) + (k)*stride)
 
-INLINE Vec3 load3(global const float* plane, const int stride, const int slot) {
+INLINE Vec3 load3(global const float* plane, const size_t stride, const size_t slot) {
     return vec3(plane[slot], plane[stride + slot], plane[2 * stride + slot]);
 }
 
-INLINE void store3(global float* plane, const int stride, const int slot, const Vec3 v) {
+INLINE void store3(global float* plane, const size_t stride, const size_t slot, const Vec3 v) {
     plane[slot] = v.x;
     plane[stride + slot] = v.y;
     plane[2 * stride + slot] = v.z;

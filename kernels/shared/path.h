@@ -1,5 +1,6 @@
 // The state of a path, declared once: groups of planes, one float or uint a path slot. A group is one buffer; plane k of
 // slot s is group[k * stride + s]. A group that the scene or the method does not need is not allocated.
+// The slots in use are 0 .. n - 1, all of them: the queue of every stage is that range, so that planes are read in order.
 #ifndef WAVEPATH_PATH_H
 #define WAVEPATH_PATH_H
 
@@ -23,7 +24,28 @@ enum HitPlane {
     HIT_PLANES
 };
 #define HIT_MISS (-1)   // it left the scene
-#define HIT_ENDED (-2)  // the path ends: absorbed, or cut
+#define HIT_ENDED (-2)  // the path is over: absorbed, or cut
+#define HIT_IDLE (-3)   // the slot has no work left
+
+// surfaces: what was hit, where HIT_PRIMITIVE >= 0
+enum SurfacePlane {
+    SURFACE_X,  // position [normalised]
+    SURFACE_Y,
+    SURFACE_Z,
+    SURFACE_NG_X,  // geometric normal, unit, on the viewer's side
+    SURFACE_NG_Y,
+    SURFACE_NG_Z,
+    SURFACE_BASE_R,  // base colour [1]
+    SURFACE_BASE_G,
+    SURFACE_BASE_B,
+    SURFACE_MATERIAL,  // (int bits)
+    SURFACE_LIGHT,     // (uint bits) row of the light table if it emits towards the viewer, else NO_LIGHT
+    SURFACE_N_X,       // shading normal, unit, on the viewer's side (only with HAS_VERTEX_NORMALS)
+    SURFACE_N_Y,
+    SURFACE_N_Z,
+    SURFACE_PLANES
+};
+#define SURFACE_PLANES_FLAT SURFACE_N_X
 
 // throughputs: what the path carries
 enum ThroughputPlane {

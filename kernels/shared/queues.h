@@ -1,31 +1,26 @@
-// Queues of path slots. A queue keeps the order of its slots, so that neighbours stay neighbours and the order of nothing
-// depends on chance; its length lives on the device, and kernels guard against it.
+// The queue of every stage is the range of slots in use. Slots refill as their paths end; once half of them have no work
+// left, the live ones are moved together (scatter_queue, move_paths).
 #ifndef WAVEPATH_QUEUES_H
 #define WAVEPATH_QUEUES_H
 
 #include "shared/cl_types.h"
 
-#define QUEUE_CHUNK 256  // entries that one work-item of scan_queue and scatter_queue owns
+#define QUEUE_CHUNK 256  // slots that one work-item of scan_queue and scatter_queue owns
 
-// Bits of a queue entry's fate, settled by roulette_compact.
-#define FATE_ACTIVE 1u  // the slot holds a path in the next iteration too: this one, or its next sample's
-#define FATE_ENDED 2u   // this path is over
+// Bits of a slot's fate in this iteration.
+#define FATE_ACTIVE 1u     // it has work in the next iteration too: this path, or another sample
+#define FATE_ENDED 2u      // its path is over
+#define FATE_CONNECTED 4u  // it traced a connection to a light
 
-#define FATE_CONNECTED 4u  // it traced a connection to a light in this iteration (written by occlusion)
-
-#define DEPTH_BINS 16  // path lengths counted apart: 0 .. 14 scatterings, and longer
+#define DEPTH_BINS 16                // path lengths counted apart: 0 .. 14 scatterings, and longer
 #define STATISTICS (DEPTH_BINS + 1)  // and connections traced
 
+// What the host reads after every iteration, one a chunk.
 typedef struct {
-    shared_uint active;
-    shared_uint ended;
-    shared_uint runaway_lock;    // 1: a path passed MAX_SCATTERINGS, namely
-    shared_uint runaway_pixel;   // of this pixel,
-    shared_uint runaway_pass;    // this row of the plan,
-    shared_uint runaway_sample;  // and this sample of its unit
-    shared_uint padding[2];
-} QueueSizes;
-SHARED_SIZE(QueueSizes, 32);
+    shared_uint active;        // slots with work
+    shared_uint runaway_slot;  // of a path that passed MAX_SCATTERINGS, + 1; 0: none
+} ChunkState;
+SHARED_SIZE(ChunkState, 8);
 
 // A path this long stops the run with an error: cutting it silently would be bias.
 #define MAX_SCATTERINGS 1000000u

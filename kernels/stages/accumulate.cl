@@ -1,12 +1,10 @@
 // Adds every finished sample to its unit's sum, and hands the sum over when the unit is done.
-// reads: ended queue, plan    writes: radiances, ids, cells, cell_flags
-// One work-item an ended path. A cell belongs to one unit, so it has one writer.
+// reads: hits, plan    writes: radiances, ids, cells, cell_flags
+// One work-item a slot. A cell belongs to one unit, so it has one writer.
 
 #include "sampling/vector.cl"
-#include "shared/inline.h"
 #include "shared/params.h"
 #include "shared/path.h"
-#include "shared/queues.h"
 
 // Tested on the bits: a compiler may assume that isfinite() holds.
 INLINE int is_finite_bits(const float x) {
@@ -15,39 +13,34 @@ INLINE int is_finite_bits(const float x) {
 
 kernel void accumulate(
     constant const RenderParams* restrict params,
-    global const QueueSizes* restrict sizes,
-    global const uint* restrict ended,
+    const uint slots,
+    global const float* restrict hits,
     global const PlanRow* restrict plan,
     global float* restrict radiances,
     global uint* restrict ids,
     global float* restrict cells,
     global uint* restrict cell_flags) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= sizes->ended) return;
-    const int slot = (int)ended[i];
-    const int stride = (int)params->stride;
+    const size_t stride = params->stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
+    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
     const Vec3 radiance = load3(PLANE(radiances, RADIANCE_R), stride, slot);
+    const Vec3 sum = add3(load3(PLANE(radiances, SUM_R), stride, slot), radiance);
+    store3(PLANE(radiances, SUM_R), stride, slot, sum);
+
     const uint sample = PLANE(ids, ID_SAMPLE)[slot];
-    const int finite = is_finite_bits(radiance.x) && is_finite_bits(radiance.y) && is_finite_bits(radiance.z);
+    const int finite = is_finite_bits(radiance.x) & is_finite_bits(radiance.y) & is_finite_bits(radiance.z);
     const uint flags = PLANE(ids, ID_NONFINITE)[slot];
     const uint counted = (flags + 0x10000u) | (flags == 0 ? sample + 1 : 0);
-    const uint new_flags = finite ? flags : counted;
-    const int done = sample + 1 >= plan[(int)PLANE(ids, ID_PASS)[slot]].samples;
-    const int cell = (int)PLANE(ids, ID_CELL)[slot];
-    const int cells_stride = (int)params->cells;
+    PLANE(ids, ID_NONFINITE)[slot] = finite ? flags : counted;
 
-    const Vec3 sum = add3(load3(PLANE(radiances, SUM_R), stride, slot), radiance);
-    PLANE(ids, ID_NONFINITE)[slot] = done ? 0 : new_flags;
-    store3(PLANE(radiances, SUM_R), stride, slot, select3(done, vec3(0.0f, 0.0f, 0.0f), sum));
-    if (done) {
-        store3(cells, cells_stride, cell, sum);
-        cell_flags[cell] = new_flags;
-    }
+    if (sample + 1 < plan[(int)PLANE(ids, ID_PASS)[slot]].samples) return;
+    const int cell = (int)PLANE(ids, ID_CELL)[slot];
+    cell_flags[cell] = finite ? flags : counted;
+    PLANE(ids, ID_NONFINITE)[slot] = 0;
 #pragma unroll
-    for (int k = 3; k < SUM_PLANES; ++k) {
-        global float* plane = PLANE(radiances, SUM_R + k);
-        const float value = plane[slot];
-        plane[slot] = done ? 0.0f : value;
-        if (done) cells[k * cells_stride + cell] = value;
+    for (int k = 0; k < SUM_PLANES; ++k) {
+        cells[k * (int)params->cells + cell] = PLANE(radiances, SUM_R + k)[slot];
+        PLANE(radiances, SUM_R + k)[slot] = 0.0f;
     }
 }

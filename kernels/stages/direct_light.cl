@@ -1,36 +1,37 @@
 // Chooses a point on a light for every path at a surface and leaves the connection to `occlusion`
 // (notes 5, directRadianceEstimator, with the f_r that the notes leave out).
-// reads: queue, rays, hits, throughputs, ids, scene, lights    writes: shadows
-// One work-item an active path.
+// reads: rays, hits, surfaces, throughputs, ids, scene, lights    writes: shadows
+// One work-item a slot.
 
 #include "geometry/interaction.cl"
 #include "lights/area_light.cl"
 #include "lights/environment.cl"
 #include "lights/punctual.cl"
 #include "sampling/dimensions.cl"
-#include "shared/queues.h"
 
 kernel void direct_light(
     constant const RenderParams* restrict params,
-    global const QueueSizes* restrict sizes,
-    global const uint* restrict queue,
+    const uint slots,
     global const float* restrict triangles,
     global const DeviceMaterial* restrict materials,
     global const DeviceLight* restrict lights,
     global const EnvironmentEntry* restrict environment,
     global const float* restrict rays,
     global const float* restrict hits,
+    global const float* restrict surfaces,
     global const float* restrict throughputs,
     global const uint* restrict ids,
     global float* restrict shadows) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= sizes->active) return;
-    const int slot = (int)queue[i];
-    const int stride = (int)params->stride;
+    const size_t stride = params->stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
-    const Interaction x = interact(
-        triangles, materials, primitive, PLANE(hits, HIT_U)[slot], PLANE(hits, HIT_V)[slot], direction);
+    PLANE(shadows, SHADOW_T_MAX)[slot] = 0.0f;
+    if (primitive < 0) return;
+    const Vec3 p = load3(PLANE(surfaces, SURFACE_X), stride, slot);
+    const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
+    const Vec3 n = load_shading_normal(surfaces, stride, slot);
+    const Surface surface = load_surface(materials, surfaces, stride, slot);
 
     // the light and the point
     const uint seed = PLANE(ids, ID_SEED)[slot];
@@ -41,13 +42,13 @@ kernel void direct_light(
     const Bits2 point = scattering_pair(seed, index, branch, scattering, PAIR_LIGHT_POINT);
     global const DeviceLight* light = lights + (int)choose_light(lights, params->light_count, choice.u);
     LightSample s;
-    s.p = x.p;
-    s.wi = x.n;
+    s.p = p;
+    s.wi = n;
     s.radiance = vec3(0.0f, 0.0f, 0.0f);
     s.pdf_w = PDF_CERTAIN;
-    if (HAS_PUNCTUAL_LIGHTS) s = punctual_sample(light, x.p);
+    if (HAS_PUNCTUAL_LIGHTS) s = punctual_sample(light, p);
     if (HAS_AREA_LIGHTS) {
-        const LightSample area = area_light_sample(triangles, materials, light, x.p, unit_pair(point));
+        const LightSample area = area_light_sample(triangles, materials, light, p, unit_pair(point));
         const int is_area = light->kind == LIGHT_TRIANGLE;
         s.p = select3(is_area, area.p, s.p);
         s.wi = select3(is_area, area.wi, s.wi);
@@ -60,29 +61,28 @@ kernel void direct_light(
         const float pdf_w = light->pmf * environment_pdf_w(environment, params, wi);
         const Vec3 radiance =
             scale3(environment_eval(environment, params, wi), pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
-        s.p = select3(is_environment, madd3(x.p, wi, OUTSIDE_SCENE), s.p);
+        s.p = select3(is_environment, madd3(p, wi, OUTSIDE_SCENE), s.p);
         s.wi = select3(is_environment, wi, s.wi);
         s.radiance = select3(is_environment, radiance, s.radiance);
         s.pdf_w = is_environment ? pdf_w : s.pdf_w;
     }
 
     // what it brings: throughput * f_r cos * L_e / pdf_w, weighted against the bsdf's chance to find it
-    const Frame frame = frame_around(x.n);
-    const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
+    const Frame frame = frame_around(n);
+    const Vec3 wo = to_local(frame, scale3(load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), -1.0f));
     const Vec3 wi = to_local(frame, s.wi);
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
-    value = mul3(value, gltf_eval(x.surface, wo, wi));
+    value = mul3(value, gltf_eval(surface, wo, wi));
     if (WEIGH_BOTH) {
-        const float weight = power_heuristic(s.pdf_w, gltf_pdf_w(x.surface, wo, wi));
+        const float weight = power_heuristic(s.pdf_w, gltf_pdf_w(surface, wo, wi));
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
     // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay scalar on PoCL.
-    float t_max = primitive >= 0 ? 1.0f : 0.0f;
-    t_max *= scattering < params->max_scatterings ? 1.0f : 0.0f;
-    t_max *= dot3(x.ng, s.wi) > 0.0f ? 1.0f : 0.0f;
+    float t_max = scattering < params->max_scatterings ? 1.0f : 0.0f;
+    t_max *= dot3(ng, s.wi) > 0.0f ? 1.0f : 0.0f;
     t_max *= wi.z > 0.0f ? 1.0f : 0.0f;
     t_max *= max_component3(value) > 0.0f ? 1.0f : 0.0f;
-    const Vec3 origin = leave(x.p, x.ng);
+    const Vec3 origin = leave(p, ng);
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, sub3(s.p, origin));
     PLANE(shadows, SHADOW_T_MAX)[slot] = t_max;

@@ -1,26 +1,25 @@
-// Starts the next sample of every slot whose path ended: of its unit, or of the unit one pool further on.
-// reads: ended queue, plan    writes: ids, rays, throughputs, radiances
-// One work-item an ended slot.
+// Starts the next sample of every slot whose path is over: of its unit, or of the unit one pool further on.
+// reads: plan    writes: hits (a slot without work), ids, rays, throughputs, radiances
+// One work-item a slot.
 
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
 #include "shared/path.h"
-#include "shared/queues.h"
 
 kernel void generate_rays(
     constant const RenderParams* restrict params,
-    global const QueueSizes* restrict sizes,
-    global const uint* restrict ended,
+    const uint slots,
     global const PlanRow* restrict plan,
+    global float* restrict hits,
     global uint* restrict ids,
     global float* restrict rays,
     global float* restrict throughputs,
     global float* restrict radiances) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= sizes->ended) return;
-    const int slot = (int)ended[i];
-    const int stride = (int)params->stride;
+    const size_t stride = params->stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
+    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
 
     // the unit and the sample
     const uint old_cell = PLANE(ids, ID_CELL)[slot];
@@ -31,7 +30,10 @@ kernel void generate_rays(
     const uint stepped = old_pixel - params->first_pixel + params->pixel_step;
     const uint wrapped = stepped >= params->window_pixels;
     const uint cell = same_unit ? old_cell : old_cell + params->pool;
-    if (cell >= params->cells) return;  // no work left: the slot is not in the active queue any more
+    if (cell >= params->cells) {
+        PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(HIT_IDLE);
+        return;
+    }
     const uint pixel = same_unit ? old_pixel : params->first_pixel + stepped - (wrapped ? params->window_pixels : 0);
     const uint pass = same_unit ? old_pass : old_pass + params->pass_step + wrapped;
     const uint sample = same_unit ? next_sample : 0;

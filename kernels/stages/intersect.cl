@@ -1,25 +1,23 @@
-// Finds the closest triangle along every active ray.
-// reads: ray queue, rays, bvh    writes: hits
-// One work-item a ray.
+// Finds the closest triangle along every ray.
+// reads: rays, bvh    writes: hits
+// One work-item a slot.
 
 #include "geometry/bvh.cl"
 #include "sampling/vector.cl"
-#include "shared/features.h"
 #include "shared/params.h"
 #include "shared/path.h"
-#include "shared/queues.h"
 
 kernel void intersect(
     constant const RenderParams* restrict params,
-    global const QueueSizes* restrict sizes,
-    global const uint* restrict queue,
+    const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
     global const float* restrict rays,
     global float* restrict hits) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= sizes->active) return;
-    const int slot = (int)queue[i];
+    const size_t stride = params->stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
+    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return;
     const Hit hit = closest_hit(
         nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
         PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],

@@ -1,28 +1,26 @@
 // Traces the pending connections and adds what arrives.
-// reads: queue, shadows, bvh    writes: radiances, fates
-// One work-item an active path.
+// reads: shadows, bvh    writes: radiances, fates
+// One work-item a slot.
 
 #include "geometry/bvh.cl"
 #include "sampling/vector.cl"
-#include "shared/features.h"
 #include "shared/params.h"
 #include "shared/path.h"
 #include "shared/queues.h"
 
 kernel void occlusion(
     constant const RenderParams* restrict params,
-    global const QueueSizes* restrict sizes,
-    global const uint* restrict queue,
+    const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
     global const float* restrict shadows,
     global float* restrict radiances,
     global uchar* restrict fates) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= sizes->active) return;
-    const int slot = (int)queue[i];
+    const size_t stride = params->stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
     const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
-    fates[i] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+    fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
     if (t_max <= 0.0f) return;
     const int blocked = any_hit(
         nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot], PLANE(shadows, SHADOW_ORIGIN_Y)[slot],

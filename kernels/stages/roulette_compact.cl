@@ -1,6 +1,6 @@
 // Decides which paths go on (notes 4, Russian roulette: survivors carry 1/q) and what becomes of each slot.
-// reads: queue, plan    writes: throughputs, hits (the end), ids (scatterings of the last ray traced), fates
-// One work-item an active path. scan_queue and scatter_queue turn the fates into the next queues.
+// reads: plan    writes: throughputs, hits (the end), ids (scatterings of the last ray traced), fates
+// One work-item a slot. scan_queue counts the fates.
 
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
@@ -10,18 +10,20 @@
 
 kernel void roulette_compact(
     constant const RenderParams* restrict params,
-    global const QueueSizes* restrict sizes,
-    global const uint* restrict queue,
+    const uint slots,
     global const PlanRow* restrict plan,
     global uint* restrict ids,
     global float* restrict hits,
     global float* restrict throughputs,
     global uchar* restrict fates) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= sizes->active) return;
-    const int slot = (int)queue[i];
-    const int stride = (int)params->stride;
+    const size_t stride = params->stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    if (primitive == HIT_IDLE) {
+        fates[slot] = 0;
+        return;
+    }
     const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
     const Vec3 throughput = load3(PLANE(throughputs, THROUGHPUT_R), stride, slot);
 
@@ -43,6 +45,6 @@ kernel void roulette_compact(
     const uint pass = PLANE(ids, ID_PASS)[slot];
     const int has_next = PLANE(ids, ID_SAMPLE)[slot] + 1 < plan[(int)pass].samples ||
                          PLANE(ids, ID_CELL)[slot] + params->pool < params->cells;
-    const uint connected = SAMPLE_LIGHTS ? fates[i] : 0u;
-    fates[i] = (uchar)(connected | (!ends || has_next ? FATE_ACTIVE : 0u) | (ends ? FATE_ENDED : 0u));
+    const uint connected = SAMPLE_LIGHTS ? fates[slot] : 0u;
+    fates[slot] = (uchar)(connected | (!ends || has_next ? FATE_ACTIVE : 0u) | (ends ? FATE_ENDED : 0u));
 }

@@ -1,22 +1,38 @@
-// Counts the fates of each chunk of QUEUE_CHUNK queue entries.
-// reads: fates    writes: chunk_counts (x: active, y: ended)
+// Counts each chunk of QUEUE_CHUNK slots: those with work, the ended paths by length, the connections.
+// reads: fates, ids    writes: chunks, statistics (a row each chunk)
 // One work-item a chunk.
 
+#include "sampling/vector.cl"
+#include "shared/params.h"
+#include "shared/path.h"
 #include "shared/queues.h"
 
 kernel void scan_queue(
-    global const QueueSizes* restrict sizes,
+    constant const RenderParams* restrict params,
+    const uint slots,
     global const uchar* restrict fates,
-    global uint2* restrict chunk_counts) {
+    global const uint* restrict ids,
+    global ChunkState* restrict chunks,
+    global uint* restrict statistics) {
+    const size_t stride = params->stride;
     const uint chunk = (uint)get_global_id(0);
     const uint first = chunk * QUEUE_CHUNK;
-    if (first >= sizes->active) return;
-    const uint last = min(first + QUEUE_CHUNK, sizes->active);
+    if (first >= slots) return;
+    const uint last = min(first + QUEUE_CHUNK, slots);
+    global uint* row = statistics + chunk * STATISTICS;
     uint active = 0;
-    uint ended = 0;
-    for (uint i = first; i < last; ++i) {
-        active += fates[i] & FATE_ACTIVE;
-        ended += (fates[i] & FATE_ENDED) >> 1;
+    uint connections = 0;
+    uint runaway_slot = 0;
+    for (uint slot = first; slot < last; ++slot) {
+        const uint fate = fates[slot];
+        active += fate & FATE_ACTIVE;
+        connections += fate / FATE_CONNECTED;
+        if (!(fate & FATE_ENDED)) continue;
+        const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
+        row[min(scattering, DEPTH_BINS - 1u)] += 1;
+        if (scattering >= MAX_SCATTERINGS) runaway_slot = slot + 1;
     }
-    chunk_counts[chunk] = (uint2)(active, ended);
+    row[DEPTH_BINS] += connections;
+    chunks[chunk].active = active;
+    chunks[chunk].runaway_slot = runaway_slot;
 }

@@ -1,25 +1,22 @@
 // Adds the environment's radiance to paths that left the scene.
-// reads: queue, rays, hits, throughputs, environment    writes: radiances
-// One work-item an active path.
+// reads: rays, hits, throughputs, environment    writes: radiances
+// One work-item a slot.
 
 #include "lights/environment.cl"
 #include "sampling/mis.cl"
 #include "shared/path.h"
-#include "shared/queues.h"
 
 kernel void shade_miss(
     constant const RenderParams* restrict params,
-    global const QueueSizes* restrict sizes,
-    global const uint* restrict queue,
+    const uint slots,
     global const EnvironmentEntry* restrict environment,
     global const float* restrict rays,
     global const float* restrict hits,
     global const float* restrict throughputs,
     global float* restrict radiances) {
-    const uint i = (uint)get_global_id(0);
-    if (i >= sizes->active) return;
-    const int slot = (int)queue[i];
-    const int stride = (int)params->stride;
+    const size_t stride = params->stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
     const int missed = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_MISS;
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
     const float pdf_w = PLANE(throughputs, THROUGHPUT_PDF)[slot];

@@ -57,7 +57,9 @@ std::string value_hint(const CLI::Option& option) {
     if (open != std::string::npos && close != std::string::npos)
         return fmt::format(
             "{}", fmt::join(split(type.substr(open + 1, close - open - 1), ','), "|"));
-    return type.substr(type.rfind(':') + 1);  // TEXT:FILE is FILE
+    const auto colon = type.find(':');
+    return type.starts_with("TEXT:") ? type.substr(colon + 1)
+                                     : type.substr(0, colon);  // TEXT:FILE is FILE
 }
 
 // The alternatives of a hint such as "area|power" that can be typed as they stand.
@@ -167,7 +169,7 @@ std::string completion_flags(const CLI::App& app) {
 }  // namespace
 
 std::string man_page(const CLI::App& app) {
-    const std::string name = app.get_name();
+    const std::string& name = app.get_name();
     const std::string description = app.get_description();
     const std::string summary = description.substr(0, description.find('\n'));
     std::string upper = name;
@@ -191,7 +193,7 @@ std::string man_page(const CLI::App& app) {
 }
 
 std::string bash_completion(const CLI::App& app) {
-    const std::string name = app.get_name();
+    const std::string& name = app.get_name();
     std::vector<std::string> commands;
     std::string values = completion_values(app), command_flags;
     for (const CLI::App* command : visible_commands(app)) {

@@ -31,6 +31,7 @@ pid_t spawn_self(const std::vector<std::string>& arguments, int write_end) {
     std::vector<std::string> words = {"wavepath"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
 

@@ -138,6 +138,7 @@ std::vector<std::filesystem::path> icd_files() {
 std::vector<DeviceInfo> list_one_by_one(std::chrono::seconds limit) {
     const std::vector<std::filesystem::path> files = icd_files();
     std::vector<std::future<PlatformReport>> reports;
+    reports.reserve(files.size());
     for (const auto& file : files)
         reports.push_back(std::async(std::launch::async, ask_child, 0, file.string(), limit));
     std::vector<DeviceInfo> rows;

@@ -118,12 +118,11 @@ class Assembler {
         std::string line;
         for (int number = 1; std::getline(lines, line); ++number) {
             const Directive directive = directive_of(line);
-            if (host_only.contain(directive)) {
-                source_ += line + '\n';
-            } else if (directive.word == "include" && directive.rest.starts_with('"')) {
+            const bool ours = !host_only.contain(directive);
+            if (ours && directive.word == "include" && directive.rest.starts_with('"')) {
                 include(directive.rest, path, number);
                 source_ += fmt::format("#line {} {}\n", number + 1, quoted(path));
-            } else if (directive.word == "pragma" && directive.rest.starts_with("once")) {
+            } else if (ours && directive.word == "pragma" && directive.rest.starts_with("once")) {
                 source_ += '\n';  // compilers warn of it outside a header: to them this is one file
             } else {
                 source_ += line + '\n';
@@ -168,10 +167,10 @@ std::string first_error(const std::string& log) {
     for (std::string line; std::getline(lines, line);) {
         const std::size_t found = line.find("error: ");
         if (found == std::string::npos) continue;
-        const std::string after = line.substr(found + 7);
+        std::string after = line.substr(found + 7);
         if (is_place(std::string_view(after).substr(0, after.find(": ")))) return after;
         const std::string before = line.substr(0, line.find(": "));
-        if (is_place(before)) return before + ": " + after;
+        if (is_place(before)) return fmt::format("{}: {}", before, after);
     }
     return "the kernels do not build";
 }

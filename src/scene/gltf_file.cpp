@@ -132,18 +132,14 @@ std::string parse(
     return error;
 }
 
-struct Version {
-    int major_number = 0;
-    int minor_number = 0;
-    auto operator<=>(const Version&) const = default;
-};
+using Version = std::pair<int, int>;  // major, minor
 
 std::optional<Version> parse_version(const std::string& text) {
     Version version;
     const char* const end = text.data() + text.size();
-    const auto [dot, major_error] = std::from_chars(text.data(), end, version.major_number);
+    const auto [dot, major_error] = std::from_chars(text.data(), end, version.first);
     if (major_error != std::errc{} || dot == end || *dot != '.') return std::nullopt;
-    const auto [rest, minor_error] = std::from_chars(dot + 1, end, version.minor_number);
+    const auto [rest, minor_error] = std::from_chars(dot + 1, end, version.second);
     if (minor_error != std::errc{} || rest != end) return std::nullopt;
     return version;
 }
@@ -152,7 +148,7 @@ std::optional<Version> parse_version(const std::string& text) {
 void check_version(const GltfFile& file) {
     const tinygltf::Asset& asset = file.model.asset;
     const auto version = parse_version(asset.version);
-    if (!version || version->major_number != 2)
+    if (!version || version->first != 2)
         file.fail(
             "asset", "version \"{}\" is not supported; export as glTF 2.0",
             one_line(asset.version));

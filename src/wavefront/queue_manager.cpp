@@ -17,11 +17,11 @@ std::optional<StageType> stage_if(
 }  // namespace
 
 std::vector<std::string> QueueManager::kernel_files(const Features& features) {
-    std::vector<std::string> names{"assign_units", "generate_rays", "intersect", "first_hit"};
+    std::vector<std::string> names{"assign_units", "generate_rays", "intersect", "scatter_queue", "move_paths", "interact", "first_hit"};
     if (features.environment) names.emplace_back("shade_miss");
     if (features.area_lights) names.emplace_back("shade_emission");
     if (features.sample_lights) names.insert(names.end(), {"direct_light", "occlusion"});
-    names.insert(names.end(), {"sample_indirect", "roulette_compact", "scan_queue", "scatter_queue", "accumulate", "fold_film"});
+    names.insert(names.end(), {"sample_indirect", "roulette_compact", "scan_queue", "accumulate", "fold_film"});
     for (std::string& name : names) name = "stages/" + name + ".cl";
     return names;
 }
@@ -41,6 +41,7 @@ QueueManager::QueueManager(
       assign_units_(program, "assign_units", groups.streaming, profile),
       generate_rays_(program, "generate_rays", groups.streaming, profile),
       intersect_(program, "intersect", groups.traversal, profile),
+      interact_(program, "interact", groups.streaming, profile),
       first_hit_(program, "first_hit", groups.streaming, profile),
       shade_miss_(stage_if<decltype(shade_miss_)::value_type>(features.environment, program, "shade_miss", groups.streaming, profile)),
       shade_emission_(
@@ -52,10 +53,42 @@ QueueManager::QueueManager(
       roulette_compact_(program, "roulette_compact", groups.streaming, profile),
       scan_queue_(program, "scan_queue", groups.traversal, profile),
       scatter_queue_(program, "scatter_queue", groups.traversal, profile),
+      move_paths_(program, "move_paths", groups.traversal, profile),
       accumulate_(program, "accumulate", groups.streaming, profile),
       fold_film_(program, "fold_film", groups.streaming, profile) {}
 
 void QueueManager::render(const Window& window, RenderParams params, Film& film) {
+    start(window, params);
+    uint32_t slots = std::min(pool_.slots, static_cast<uint32_t>(window.pixels * window.rows.size()));
+    uint32_t active = slots;
+    assign_units_.launch(device_, slots, params_, slots, pool_.hits, pool_.ids, pool_.radiances);
+    while (active > 0) {
+        generate_rays_.launch(device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays, pool_.throughputs, pool_.radiances);
+        intersect_.launch(device_, slots, params_, slots, scene_.nodes, scene_.blocks, pool_.rays, pool_.hits);
+        if (active <= slots / 2) slots = compact(slots, active);
+        interact_.launch(device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays, pool_.hits, pool_.surfaces);
+        first_hit_.launch(device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
+        if (shade_miss_)
+            shade_miss_->launch(device_, slots, params_, slots, scene_.environment, pool_.rays, pool_.hits, pool_.throughputs, pool_.radiances);
+        if (shade_emission_)
+            shade_emission_->launch(device_, slots, params_, slots, scene_.materials, scene_.lights, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
+        if (direct_light_) {
+            direct_light_->launch(device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights, scene_.environment, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs, pool_.ids, pool_.shadows);
+            occlusion_->launch(device_, slots, params_, slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
+        }
+        sample_indirect_.launch(device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids);
+        roulette_compact_.launch(device_, slots, params_, slots, plan_, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
+        accumulate_.launch(device_, slots, params_, slots, pool_.hits, plan_, pool_.radiances, pool_.ids, cells_, cell_flags_);
+        closest_rays_ += active;
+        active = count_active(slots, window);
+        ++iterations_;
+    }
+    fold_film_.launch(device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
+    device_.queue.finish();
+    profile_.collect();
+}
+
+void QueueManager::start(const Window& window, RenderParams params) {
     params.stride = pool_.stride;
     params.first_pixel = window.first_pixel;
     params.window_pixels = window.pixels;
@@ -65,58 +98,40 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
     params.pass_step = params.pool / window.pixels;
     device_.queue.enqueueWriteBuffer(params_.buffer(), CL_TRUE, 0, sizeof(params), &params);
     device_.queue.enqueueWriteBuffer(plan_.buffer(), CL_TRUE, 0, window.rows.size() * sizeof(PlanRow), window.rows.data());
+}
 
-    assign_units_.launch(device_, params.pool, params_, pool_.active[0], pool_.ended, pool_.sizes[0], pool_.ids, pool_.radiances);
-    QueueSizes sizes{};
-    sizes.active = sizes.ended = params.pool;
-    std::size_t now = 0;  // which of the two queues is this iteration's
-    while (sizes.active > 0) {
-        const std::size_t next = 1 - now;
-        const Sizes& lengths = pool_.sizes[now];
-        const Uints& queue = pool_.active[now];
-
-        generate_rays_.launch(device_, sizes.ended, params_, lengths, pool_.ended, plan_, pool_.ids, pool_.rays, pool_.throughputs, pool_.radiances);
-        intersect_.launch(device_, sizes.active, params_, lengths, queue, scene_.nodes, scene_.blocks, pool_.rays, pool_.hits);
-        first_hit_.launch(device_, sizes.ended, params_, lengths, pool_.ended, scene_.triangles, scene_.materials, pool_.rays, pool_.hits, pool_.radiances);
-        if (shade_miss_)
-            shade_miss_->launch(device_, sizes.active, params_, lengths, queue, scene_.environment, pool_.rays, pool_.hits, pool_.throughputs, pool_.radiances);
-        if (shade_emission_)
-            shade_emission_->launch(device_, sizes.active, params_, lengths, queue, scene_.triangles, scene_.materials, scene_.lights, pool_.rays, pool_.hits, pool_.throughputs, pool_.radiances);
-        if (direct_light_) {
-            direct_light_->launch(device_, sizes.active, params_, lengths, queue, scene_.triangles, scene_.materials, scene_.lights, scene_.environment, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids, pool_.shadows);
-            occlusion_->launch(device_, sizes.active, params_, lengths, queue, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
-        }
-        sample_indirect_.launch(device_, sizes.active, params_, lengths, queue, scene_.triangles, scene_.materials, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids);
-        roulette_compact_.launch(device_, sizes.active, params_, lengths, queue, plan_, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
-        const uint64_t chunks = (sizes.active + QUEUE_CHUNK - 1) / QUEUE_CHUNK;
-        scan_queue_.launch(device_, chunks, lengths, pool_.fates, pool_.chunk_counts);
-        scatter_queue_.launch(device_, chunks, params_, lengths, queue, pool_.fates, pool_.chunk_counts, pool_.ids, pool_.active[next], pool_.ended, pool_.sizes[next], pool_.statistics);
-
-        closest_rays_ += sizes.active;
-        sizes = read_sizes(pool_.sizes[next]);
-        if (sizes.runaway_lock != 0) report_runaway(sizes, window);
-        accumulate_.launch(device_, sizes.ended, params_, pool_.sizes[next], pool_.ended, plan_, pool_.radiances, pool_.ids, cells_, cell_flags_);
-        now = next;
-        ++iterations_;
+uint32_t QueueManager::count_active(uint32_t slots, const Window& window) {
+    chunk_states_.resize((slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK);
+    scan_queue_.launch(device_, chunk_states_.size(), params_, slots, pool_.fates, pool_.ids, pool_.chunk_states, pool_.statistics);
+    device_.queue.enqueueReadBuffer(
+        pool_.chunk_states.buffer(), CL_TRUE, 0, chunk_states_.size() * sizeof(ChunkState), chunk_states_.data());
+    profile_.collect();
+    uint32_t active = 0;
+    for (const ChunkState& chunk : chunk_states_) {
+        active += chunk.active;
+        if (chunk.runaway_slot != 0) report_runaway(chunk.runaway_slot - 1, window);
     }
-    fold_film_.launch(device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
-    device_.queue.finish();
-    profile_.collect();
+    return active;
 }
 
-QueueSizes QueueManager::read_sizes(const Sizes& sizes) {
-    QueueSizes host{};
-    device_.queue.enqueueReadBuffer(sizes.buffer(), CL_TRUE, 0, sizeof(host), &host);
-    profile_.collect();
-    return host;
+uint32_t QueueManager::compact(uint32_t slots, uint32_t active) {
+    const uint32_t kept = (active + QUEUE_CHUNK - 1) / QUEUE_CHUNK * QUEUE_CHUNK;
+    if (kept >= slots) return slots;
+    uint32_t movers = 0;
+    for (std::size_t chunk = kept / QUEUE_CHUNK; chunk < chunk_states_.size(); ++chunk) movers += chunk_states_[chunk].active;
+    scatter_queue_.launch(device_, chunk_states_.size(), params_, slots, kept, pool_.hits, pool_.chunk_states, pool_.holes, pool_.movers);
+    move_paths_.launch(device_, movers, params_, movers, pool_.holes, pool_.movers, pool_.rays, pool_.hits, pool_.throughputs, pool_.radiances, pool_.ids, pool_.branches);
+    return kept;
 }
 
-void QueueManager::report_runaway(const QueueSizes& sizes, const Window& window) const {
-    const PlanRow& row = window.rows[sizes.runaway_pass];
+void QueueManager::report_runaway(uint32_t slot, const Window& window) const {
+    const std::vector<cl_uint> ids = pool_.ids.read(device_);
+    const auto id = [&](IdPlane plane) { return ids[std::size_t{plane} * pool_.stride + slot]; };
+    const PlanRow& row = window.rows[id(ID_PASS)];
     throw Error(
         "pixel {}, sample {}: the path is still alive after {} scatterings: nothing in the scene absorbs it; "
         "lower an albedo, or use --termination depth:D (biased)",
-        sizes.runaway_pixel, row.samples_before + row.first_sample + sizes.runaway_sample, MAX_SCATTERINGS);
+        id(ID_PIXEL), row.samples_before + row.first_sample + id(ID_SAMPLE), MAX_SCATTERINGS);
 }
 
 RayCounts QueueManager::ray_counts() const {

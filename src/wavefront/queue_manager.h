@@ -54,13 +54,23 @@ class QueueManager {
     template <typename T>
     using Array = DeviceArray<T>;
     using Params = Array<RenderParams>;
-    using Sizes = Array<QueueSizes>;
     using Floats = Array<cl_float>;
     using Uints = Array<cl_uint>;
     using Plan = Array<PlanRow>;
+    using Materials = Array<DeviceMaterial>;
+    using Lights = Array<DeviceLight>;
+    using Map = Array<EnvironmentEntry>;
+    using Nodes = Array<BvhNode>;
+    using Blocks = Array<TriangleBlock>;
+    using Fates = Array<cl_uchar>;
+    using Chunks = Array<ChunkState>;
 
-    QueueSizes read_sizes(const Sizes& sizes);
-    [[noreturn]] void report_runaway(const QueueSizes& sizes, const Window& window) const;
+    void start(const Window& window, RenderParams params);
+    // Reads back what scan_queue counted; returns the slots with work.
+    uint32_t count_active(uint32_t slots, const Window& window);
+    // Moves the live paths of `slots` slots together; returns how many slots they take.
+    uint32_t compact(uint32_t slots, uint32_t active);
+    [[noreturn]] void report_runaway(uint32_t slot, const Window& window) const;
 
     const Device& device_;
     const Features features_;
@@ -71,25 +81,25 @@ class QueueManager {
     Plan plan_;
     Floats cells_;
     Uints cell_flags_;
+    std::vector<ChunkState> chunk_states_;
     uint64_t iterations_ = 0;
     uint64_t closest_rays_ = 0;
 
-    Stage<Params, Uints, Uints, Sizes, Uints, Floats> assign_units_;
-    Stage<Params, Sizes, Uints, Plan, Uints, Floats, Floats, Floats> generate_rays_;
-    Stage<Params, Sizes, Uints, Array<BvhNode>, Array<TriangleBlock>, Floats, Floats> intersect_;
-    Stage<Params, Sizes, Uints, Floats, Array<DeviceMaterial>, Floats, Floats, Floats> first_hit_;
-    std::optional<Stage<Params, Sizes, Uints, Array<EnvironmentEntry>, Floats, Floats, Floats, Floats>> shade_miss_;
-    std::optional<Stage<Params, Sizes, Uints, Floats, Array<DeviceMaterial>, Array<DeviceLight>, Floats, Floats, Floats, Floats>>
-        shade_emission_;
-    std::optional<Stage<Params, Sizes, Uints, Floats, Array<DeviceMaterial>, Array<DeviceLight>, Array<EnvironmentEntry>, Floats,
-        Floats, Floats, Uints, Floats>>
-        direct_light_;
-    std::optional<Stage<Params, Sizes, Uints, Array<BvhNode>, Array<TriangleBlock>, Floats, Floats, Array<cl_uchar>>> occlusion_;
-    Stage<Params, Sizes, Uints, Floats, Array<DeviceMaterial>, Floats, Floats, Floats, Uints> sample_indirect_;
-    Stage<Params, Sizes, Uints, Plan, Uints, Floats, Floats, Array<cl_uchar>> roulette_compact_;
-    Stage<Sizes, Array<cl_uchar>, Array<cl_uint2>> scan_queue_;
-    Stage<Params, Sizes, Uints, Array<cl_uchar>, Array<cl_uint2>, Uints, Uints, Uints, Sizes, Uints> scatter_queue_;
-    Stage<Params, Sizes, Uints, Plan, Floats, Uints, Floats, Uints> accumulate_;
+    Stage<Params, cl_uint, Floats, Uints, Floats> assign_units_;
+    Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats> generate_rays_;
+    Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats> intersect_;
+    Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
+    Stage<Params, cl_uint, Floats, Floats, Uints, Floats> first_hit_;
+    std::optional<Stage<Params, cl_uint, Map, Floats, Floats, Floats, Floats>> shade_miss_;
+    std::optional<Stage<Params, cl_uint, Materials, Lights, Floats, Floats, Floats, Floats, Floats>> shade_emission_;
+    std::optional<Stage<Params, cl_uint, Floats, Materials, Lights, Map, Floats, Floats, Floats, Floats, Uints, Floats>> direct_light_;
+    std::optional<Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Fates>> occlusion_;
+    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints> sample_indirect_;
+    Stage<Params, cl_uint, Plan, Uints, Floats, Floats, Fates> roulette_compact_;
+    Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
+    Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
+    Stage<Params, cl_uint, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats> move_paths_;
+    Stage<Params, cl_uint, Floats, Plan, Floats, Uints, Floats, Uints> accumulate_;
     Stage<Params, Plan, Floats, Uints, Floats, Uints> fold_film_;
 };
 

@@ -30,7 +30,8 @@ class Manual : public testing::Test {
         render->add_option("--env", text)->check(CLI::ExistingFile);
         render->add_option("--spp", number, "samples a pixel")
             ->capture_default_str()
-            ->type_name("N");
+            ->type_name("N")
+            ->check(CLI::Range(1, 99));
         render->add_option_group("devices")
             ->add_option("--device", text, "where")
             ->type_name("SELECTOR");

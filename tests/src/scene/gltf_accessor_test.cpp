@@ -37,7 +37,7 @@ TYPED_TEST(IndexTypes, RejectTheRestartValue) {
     GltfBuilder gltf;
     const int indices =
         gltf.accessor<TypeParam>("SCALAR", {0, 1, std::numeric_limits<TypeParam>::max()});
-    const std::vector<float> positions(3 * 300);
+    const std::vector<float> positions(900);
     gltf.object(
         {{"attributes", {{"POSITION", gltf.accessor("VEC3", positions)}}}, {"indices", indices}});
     EXPECT_EQ(
@@ -137,8 +137,8 @@ struct Broken {
     const char* message;
 };
 
-void PrintTo(const Broken& broken, std::ostream* stream) {
-    *stream << broken.name;
+std::ostream& operator<<(std::ostream& stream, const Broken& broken) {
+    return stream << broken.name;
 }
 
 class BrokenAccessors : public testing::TestWithParam<Broken> {};

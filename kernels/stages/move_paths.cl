@@ -1,0 +1,35 @@
+// Moves paths into idle slots, plane by plane.
+// reads: holes, movers    writes: rays, hits, throughputs, radiances, ids, branches
+// One work-item a path; no slot is read and written in one launch.
+
+#include "sampling/vector.cl"
+#include "shared/features.h"
+#include "shared/params.h"
+#include "shared/path.h"
+
+kernel void move_paths(
+    constant const RenderParams* restrict params,
+    const uint count,
+    global const uint* restrict holes,
+    global const uint* restrict movers,
+    global float* restrict rays,
+    global float* restrict hits,
+    global float* restrict throughputs,
+    global float* restrict radiances,
+    global uint* restrict ids,
+    global float* restrict branches) {
+    const size_t stride = params->stride;
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) return;
+    const uint from = movers[i];
+    const uint to = holes[i];
+    for (int k = 0; k < RAY_PLANES; ++k) PLANE(rays, k)[to] = PLANE(rays, k)[from];
+    for (int k = 0; k < HIT_PLANES; ++k) PLANE(hits, k)[to] = PLANE(hits, k)[from];
+    for (int k = 0; k < THROUGHPUT_PLANES; ++k) PLANE(throughputs, k)[to] = PLANE(throughputs, k)[from];
+    for (int k = 0; k < RADIANCE_PLANES; ++k) PLANE(radiances, k)[to] = PLANE(radiances, k)[from];
+    for (int k = 0; k < ID_PLANES; ++k) PLANE(ids, k)[to] = PLANE(ids, k)[from];
+    if (HAS_SPLITS)
+        for (int k = 0; k < BRANCH_PLANES * (int)params->split_depth; ++k)
+            PLANE(branches, k)[to] = PLANE(branches, k)[from];
+    PLANE(hits, HIT_PRIMITIVE)[from] = as_float(HIT_IDLE);
+}

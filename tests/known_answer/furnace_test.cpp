@@ -1,0 +1,87 @@
+// S1: a closed box of Lambert walls that all emit. L = Le / (1 - rho) at every point, and with at most D scatterings
+// L_D = Le (1 - rho^(D+1)) / (1 - rho). The channels hold three albedos at once.
+#include "support/rendering.h"
+
+#include <cmath>
+
+namespace wavepath {
+namespace {
+
+constexpr double albedos[] = {0.5, 0.8, 0.9};
+constexpr const char* channels[] = {"R", "G", "B"};
+
+Scene furnace() {
+    Scene scene = scene_named("furnace");
+    add_box(scene, lambert({0.5F, 0.8F, 0.9F}, grey(1)), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
+    return scene;
+}
+
+const Camera inside = perspective({0.2, 0.1, 0.3}, {-1, -0.4, -0.9}, 1.6);
+
+TEST(Furnace, GivesTheGeometricSeries) {
+    for (const char* method : {"path", "bsdf", "mis"}) {
+        // albedo .9 has a relative variance of .9 by roulette alone: 2e6 samples to find 0.5 %, and `path` takes them
+        const bool thorough = std::string(method) == "path";
+        const RenderResult result =
+            render_scene(furnace(), square_settings(method, inside, 64, thorough ? 512 : 192));
+        for (int c = 0; c < 3; ++c) {
+            SCOPED_TRACE(fmt::format("{}, albedo {}", method, albedos[c]));
+            const double truth = 1 / (1 - albedos[c]);
+            EXPECT_TRUE(
+                has_mean(shared_mean(result, channels[c]), truth, {.bias = thorough || c < 2 ? 0.005 : 0.01}));
+            for (const Estimate& block : block_means(result, channels[c]))
+                EXPECT_TRUE(has_mean(block, truth, {.bias = 0.1, .tests = 64}));
+        }
+    }
+}
+
+TEST(Furnace, StopsAtTheDepthAsked) {
+    for (const char* method : {"path", "bsdf", "mis"}) {
+        for (const uint32_t depth : {0U, 1U, 2U, 5U, 10U}) {
+            // emission met by chance makes every sample the same: one will do
+            const uint64_t samples = std::string(method) == "mis" ? 128 : 1;
+            RenderSettings settings = square_settings(method, inside, 64, samples);
+            settings.termination = {TerminationKind::depth, depth, 1};
+            const RenderResult result = render_scene(furnace(), settings);
+            for (int c = 0; c < 3; ++c) {
+                SCOPED_TRACE(fmt::format("{}, depth {}, albedo {}", method, depth, albedos[c]));
+                const double truth = (1 - std::pow(albedos[c], depth + 1)) / (1 - albedos[c]);
+                EXPECT_TRUE(has_mean(shared_mean(result, channels[c]), truth));
+            }
+        }
+    }
+}
+
+// Survival r at every vertex: E X^2 = (1 + rho) / (1 - rho) / (1 - rho^2 / r). Asserted where r > rho^(4/3), so that the
+// fourth moment exists and the measured variance means something.
+TEST(Furnace, RouletteHasThePredictedVariance) {
+    for (const float survival : {0.8F, 0.9F}) {
+        RenderSettings settings = square_settings("path", inside, 512, 1);
+        settings.sobol = false;
+        settings.termination = {TerminationKind::roulette_constant, 0, survival};
+        const RenderResult result = render_scene(furnace(), settings);
+        for (int c = 0; c < 3; ++c) {
+            if (survival <= std::pow(albedos[c], 4.0 / 3)) continue;
+            SCOPED_TRACE(fmt::format("survival {}, albedo {}", survival, albedos[c]));
+            const double rho = albedos[c];
+            const double second = (1 + rho) / (1 - rho) / (1 - rho * rho / survival);
+            EXPECT_TRUE(has_mean(
+                sample_variance(result, channels[c]), second - 1 / ((1 - rho) * (1 - rho)), {.bias = 0.1}));
+            EXPECT_TRUE(has_mean(shared_mean(result, channels[c]), 1 / (1 - rho), {.bias = 0.02}));
+        }
+    }
+}
+
+// The variance layer against the scatter of pixels that share one truth.
+TEST(Furnace, VarianceLayerIsTheVarianceOfTheMean) {
+    RenderSettings settings = square_settings("path", inside, 64, 64);
+    settings.sobol = false;
+    const RenderResult result = render_scene(furnace(), settings);
+    const Estimate layer = image_mean(result);
+    const Estimate scatter = shared_mean(result);
+    // 1 / sqrt(2 * 4096) of the scatter's error is chance, five times that is the limit
+    EXPECT_NEAR(layer.error / scatter.error, 1, 0.06);
+}
+
+}  // namespace
+}  // namespace wavepath

@@ -1,0 +1,186 @@
+// S3: radiance E / pi of a white Lambert patch under a black polygon of radiance 1; truths by Lambert's formula in 40
+// digits. Variances of one sample as predicted for cosine sampling, area sampling and the power heuristic.
+#include "support/rendering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wavepath {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+const Material lamp = lambert(grey(0), grey(1));
+const Material white = lambert(grey(1));
+
+struct Receiver {
+    Vec3d p, normal;
+    double irradiance;     // of a light of radiance 1
+    double distance = 1;   // the smallest length nearby: patch and footprint stay far below it
+};
+
+// One patch under `light`, and the camera that sees a hundredth of its least distance.
+struct PatchView {
+    Scene scene;
+    Camera camera;
+
+    PatchView(Scene lights, const Receiver& r)
+        : scene(std::move(lights)), camera(close_up(r.p, r.normal, 0.2 * r.distance, 2e-3 * r.distance)) {
+        add_square(scene, white, r.p, r.normal, 0.02 * r.distance);
+    }
+};
+
+Scene square_light() {
+    Scene scene = scene_named("square light");
+    add_square(scene, lamp, {0, 0, 1}, {0, 0, -1}, 1);
+    return scene;
+}
+
+// Of the light [0,1] x [-.5,.5] at z = 1, which touches the wall x = 0 that the receivers lie in.
+Scene light_at_wall() {
+    Scene scene = scene_named("light at wall");
+    add_square(scene, lamp, {0.5, 0, 1}, {0, 0, -1}, 1);
+    return scene;
+}
+
+Scene triangle_light() {
+    Scene scene = scene_named("triangle light");
+    add_triangles(scene, lamp, {0, 0, 1, 1, 0, 1, 0, 1, 1}, {0, 2, 1});
+    return scene;
+}
+
+const Receiver floor_points[] = {
+    {{0, 0, 0}, {0, 0, 1}, 0.7522746884541075},
+    {{0.5, 0, 0}, {0, 0, 1}, 0.5666451120495073},
+    {{0.5, 0.5, 0}, {0, 0, 1}, 0.4352098756835516},
+    {{1, 0.5, 0}, {0, 0, 1}, 0.2154559703138851},
+};
+const Receiver far_points[] = {
+    {{2, 1, 0}, {0, 0, 1}, 0.03023651582530077},
+    {{10, 0, 0}, {0, 0, 1}, 9.866871875955458e-5},
+};
+const Receiver tilted_points[] = {
+    {{0, 0, 0}, {1, 0, 1}, 0.5319385335208968},
+    {{0, 0, 0}, {1, 0, 0}, 0.08751026477375238},
+    {{0.2, 0.1, 0.3}, {0, 1, 1}, 0.732156927081709},
+    {{-0.6, 0, 0.9}, {1, 0, 0}, 0.8773269681301587, 0.1},
+    {{0.3, 0, 0.5}, {1, 0, 0.1}, 0.1435697607228396},
+};
+const Receiver triangle_points[] = {
+    {{0, 0, 0}, {0, 0, 1}, 0.3022998940390363},
+    {{1.0 / 3, 1.0 / 3, 0}, {0, 0, 1}, 0.4134782845659833},
+    {{1, 1, 0}, {0, 0, 1}, 0.1329099816445153},
+};
+
+void expect_irradiance(
+    const Scene& lights, const Receiver& receiver, const char* method, uint64_t samples, double bias = 0.005) {
+    SCOPED_TRACE(fmt::format(
+        "{}, {} at ({}, {}, {}), normal ({}, {}, {})", lights.name, method, receiver.p[0], receiver.p[1],
+        receiver.p[2], receiver.normal[0], receiver.normal[1], receiver.normal[2]));
+    const PatchView view(lights, receiver);
+    const RenderResult result = render_scene(view.scene, square_settings(method, view.camera, 64, samples));
+    // the footprint's second-order error
+    EXPECT_TRUE(has_mean(shared_mean(result), receiver.irradiance / pi, {.bias = bias, .truth_error = 1e-5}));
+}
+
+TEST(Irradiance, OfASquareLightByLightSampling) {
+    for (const char* method : {"direct", "direct-bsdf", "mis"}) {
+        for (const Receiver& r : floor_points) expect_irradiance(square_light(), r, method, 16);
+        for (const Receiver& r : far_points) expect_irradiance(square_light(), r, method, 16);
+    }
+}
+
+TEST(Irradiance, OfASquareLightByChance) {
+    for (const char* method : {"path", "bsdf"}) {
+        expect_irradiance(square_light(), floor_points[0], method, 128);
+        expect_irradiance(square_light(), floor_points[2], method, 128, 0.01);
+    }
+}
+
+TEST(Irradiance, OfTiltedAndHalfLitReceivers) {
+    for (const char* method : {"direct", "mis"})
+        for (const Receiver& r : tilted_points) expect_irradiance(square_light(), r, method, 64);
+}
+
+TEST(Irradiance, OfATriangleLight) {
+    for (const char* method : {"direct", "mis"})
+        for (const Receiver& r : triangle_points) expect_irradiance(triangle_light(), r, method, 16);
+}
+
+// Receivers close to the light: area sampling has a relative variance of A / (3 pi d^2), the power heuristic stays calm.
+TEST(Irradiance, InTheGapUnderTheLight) {
+    const struct {
+        double gap, centre, edge, corner;
+    } rows[] = {
+        {0.1, 0.96833955697404, 0.48933177056384, 0.24797140829531},
+        {1e-2, 0.99967278693645, 0.49989033763249, 0.24997954398597},
+        {1e-3, 0.99999672677155, 0.49999890306865, 0.24999979542270},
+    };
+    for (const auto& [gap, centre, edge, corner] : rows) {
+        expect_irradiance(square_light(), {{0, 0, 1 - gap}, {0, 0, 1}, pi * centre, gap}, "mis", 64);
+        expect_irradiance(square_light(), {{0.5, 0, 1 - gap}, {0, 0, 1}, pi * edge, 0.1 * gap}, "mis", 128, 0.01);
+        expect_irradiance(square_light(), {{0.5, 0.5, 1 - gap}, {0, 0, 1}, pi * corner, 0.1 * gap}, "mis", 128, 0.01);
+    }
+}
+
+TEST(Irradiance, OfAWallThatTouchesTheLight) {
+    for (const auto& [gap, factor] : {std::pair{0.1, 0.42254486023906}, {1e-2, 0.49215895216345}, {1e-3, 0.49921579759626}})
+        expect_irradiance(light_at_wall(), {{0, 0, 1 - gap}, {1, 0, 0}, pi * factor, gap}, "mis", 192);
+}
+
+TEST(Irradiance, HasThePredictedVariance) {
+    const struct {
+        Scene lights;
+        Receiver receiver;
+        double path, direct, mis;  // relative variance of one sample
+    } rows[] = {
+        {square_light(), floor_points[0], 3.17612, 0.0303545, 0.0336761},
+        {square_light(), floor_points[2], 6.21857, 0.255292, 0.224867},
+        {square_light(), {{0, 0, 0.9}, {0, 0, 1}, pi * 0.96833955697404, 0.1}, 0.0326956, 10.3151, 0.139377},
+        {light_at_wall(), {{0, 0, 0.9}, {1, 0, 0}, pi * 0.42254486023906, 0.1}, 1.36661, 6.42329, 0.982301},
+    };
+    for (const auto& row : rows) {
+        const PatchView view(row.lights, row.receiver);
+        for (const auto& [method, predicted] :
+             {std::pair{"path", row.path}, {"direct", row.direct}, {"mis", row.mis}}) {
+            SCOPED_TRACE(fmt::format("{}, {}", row.lights.name, method));
+            RenderSettings settings = square_settings(method, view.camera, 512, 1);
+            settings.sobol = false;
+            const double mean = row.receiver.irradiance / pi;
+            EXPECT_TRUE(has_mean(
+                sample_variance(render_scene(view.scene, settings)), predicted * mean * mean,
+                {.bias = 0.25, .truth_error = 1e-4}));
+        }
+    }
+}
+
+// A whole wall that touches the light: the samples of `direct` have tail index 3/2, so its error falls as N^(-1/3), and
+// the z-test does not apply; `mis` is back at N^(-1/2).
+TEST(Irradiance, SlopesWhereTheLightTouchesTheWall) {
+    Scene scene = light_at_wall();
+    add_square(scene, white, {0, 0, 0.5}, {1, 0, 0}, 1);
+    const Camera camera = orthographic({0.1, 0, 0.5}, {0, 0, 0.5}, 1);
+    const auto slope = [&](const char* method) {
+        std::vector<double> errors;
+        for (const uint64_t samples : {64U, 4096U}) {
+            std::vector<double> seeds;
+            for (uint32_t seed = 1; seed <= 101; ++seed) {
+                RenderSettings settings = square_settings(method, camera, 1, samples);
+                settings.sobol = false;
+                settings.pool = 1024;
+                settings.seed = seed;
+                seeds.push_back(std::abs(render_scene(scene, settings).film.image.channels.at("R")[0] - 0.2000437760754032));
+            }
+            std::ranges::nth_element(seeds, seeds.begin() + 50);
+            errors.push_back(seeds[50]);
+        }
+        return std::log(errors[1] / errors[0]) / std::log(64.0);
+    };
+    // a median of 101 is good to about 13 %, a slope over a factor of 64 to 0.045
+    EXPECT_NEAR(slope("direct"), -1.0 / 3, 0.1);
+    EXPECT_NEAR(slope("mis"), -0.5, 0.1);
+}
+
+}  // namespace
+}  // namespace wavepath

@@ -1,0 +1,81 @@
+// The same command gives the same bits, however the work is divided.
+#include "support/environment_variable.h"
+#include "support/rendering.h"
+#include "support/temporary_folder.h"
+
+#include <cstdlib>
+#include <cstring>
+
+namespace wavepath {
+namespace {
+
+Scene room() {
+    Scene scene = scene_named("room");
+    add_box(scene, lambert({0.7F, 0.5F, 0.4F}), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
+    add_square(scene, lambert(grey(0), grey(6)), {0, 0.9, 0}, {0, -1, 0}, 0.8);
+    add_box(scene, metal(grey(0.8F), 0.4F), {-0.5, -0.8, -0.5}, {0.1, 0, 0.2}, Facing::outward);
+    return scene;
+}
+
+// 37 x 23 pixels of 13 samples: nothing divides evenly.
+RenderSettings uneven() {
+    RenderSettings settings = square_settings("mis", perspective({0.8, 0.2, 0.9}, {-0.2, -0.4, -0.3}, 1.2), 37, 13);
+    settings.height = 23;
+    return settings;
+}
+
+void expect_same_bits(const RenderResult& a, const RenderResult& b) {
+    for (const auto& [name, plane] : a.film.image.channels) {
+        const std::vector<float>& other = b.film.image.channels.at(name);
+        ASSERT_EQ(plane.size(), other.size());
+        EXPECT_EQ(std::memcmp(plane.data(), other.data(), plane.size() * sizeof(float)), 0) << name;
+    }
+}
+
+TEST(Determinism, OfTwoRunsPoolsAndWorkGroups) {
+    const RenderResult first = render_scene(room(), uneven());
+    expect_same_bits(first, render_scene(room(), uneven()));
+    for (const uint32_t pool : {1U, 17U, 1000U, 65280U, 200000U}) {
+        SCOPED_TRACE(fmt::format("pool {}", pool));
+        RenderSettings settings = uneven();
+        settings.pool = pool;
+        // one slot takes a launch a ray: a corner of the picture will do
+        if (pool == 1) settings.samples = 1;
+        RenderSettings reference = uneven();
+        reference.samples = settings.samples;
+        expect_same_bits(render_scene(room(), reference), render_scene(room(), settings));
+    }
+    RenderSettings settings = uneven();
+    settings.work_groups = {16, 64};
+    SCOPED_TRACE("work-groups 16, 64");
+    expect_same_bits(first, render_scene(room(), settings));
+}
+
+TEST(Determinism, OfTwoSeedsTheyDiffer) {
+    RenderSettings settings = uneven();
+    settings.seed = 2;
+    EXPECT_NE(
+        render_scene(room(), uneven()).film.image.channels.at("R"), render_scene(room(), settings).film.image.channels.at("R"));
+}
+
+// The number of threads is fixed when PoCL starts: a process each.
+TEST(Determinism, OfOneCoreAndTwo) {
+    if (test_device().info.platform != "Portable Computing Language")
+        GTEST_SKIP() << "the number of cores can be chosen on PoCL only, not on " << test_device().info.platform;
+    const TemporaryFolder folder;
+    const auto picture = [&](const char* threads) {
+        const EnvironmentVariable count("POCL_MAX_PTHREAD_COUNT", threads);
+        const std::string name = std::string("threads_") + threads + ".exr";
+        const std::string command = std::string("'" WAVEPATH_BINARY "' render '" WAVEPATH_SOURCE_DIR
+                                                "/scenes/cornell_box/scene.gltf' --size 48x40 --spp 20 --quiet -o '") +
+                                    (folder / name).string() + "'";
+        EXPECT_EQ(std::system(command.c_str()), 0) << command;
+        return folder.read(name);
+    };
+    const std::string one = picture("1");
+    EXPECT_GT(one.size(), std::size_t{48} * 40 * 4);
+    EXPECT_TRUE(one == picture("2"));
+}
+
+}  // namespace
+}  // namespace wavepath

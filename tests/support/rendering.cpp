@@ -1,0 +1,131 @@
+#include "support/rendering.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace wavepath {
+
+namespace {
+
+constexpr double power_z = 2.3263;  // of probability .99
+
+// Of the sums of single-precision products along a path, relative. The paths of these tests are short.
+constexpr double rounding = 3e-6;
+
+double critical_t(double degrees, const Strictness& s) {
+    return student_critical(sidak(false_alarm, s.tests) / 2, degrees);
+}
+
+testing::AssertionResult judge(
+    const Estimate& difference, double scale, double critical, const Strictness& s, const std::string& what) {
+    const double chance = critical * difference.error;
+    if (!(std::abs(difference.mean) <= chance + (rounding + s.truth_error) * std::abs(scale)))
+        return testing::AssertionFailure() << what << ": off by " << difference.mean << " = "
+                                           << 100 * difference.mean / scale << " %, "
+                                           << difference.mean / difference.error << " standard errors; critical " << critical;
+    if (!((critical + power_z) * difference.error <= s.bias * std::abs(scale)))
+        return testing::AssertionFailure() << what << ": too few samples to catch a bias of " << 100 * s.bias
+                                           << " %: relative standard error " << difference.error / scale << ", needed "
+                                           << s.bias / (critical + power_z);
+    return testing::AssertionSuccess() << what << ": " << difference.mean / difference.error << " standard errors of "
+                                       << difference.error / scale << " relative";
+}
+
+}  // namespace
+
+bool long_tests_wanted() {
+    const char* wanted = std::getenv("WAVEPATH_LONG_TESTS");
+    return wanted != nullptr && std::string(wanted) == "1";
+}
+
+RenderSettings square_settings(
+    const std::string& method, const Camera& camera, uint32_t size, uint64_t samples) {
+    RenderSettings settings;
+    settings.method = method_named(method);
+    settings.camera = camera;
+    settings.width = size;
+    settings.height = size;
+    settings.samples = samples;
+    return settings;
+}
+
+RenderResult render_scene(const Scene& scene, const RenderSettings& settings) {
+    RenderResult result = render(test_device(), scene, settings);
+    EXPECT_EQ(result.film.nonfinite.samples, 0U) << scene.name;
+    return result;
+}
+
+Estimate estimate_of(const std::vector<double>& values) {
+    Moments moments;
+    for (const double x : values) moments.add(x);
+    return {moments.mean(), moments.standard_error(), static_cast<double>(values.size() - 1)};
+}
+
+Estimate shared_mean(const RenderResult& result, const std::string& channel) {
+    const std::vector<float>& pixels = result.film.image.channels.at(channel);
+    return estimate_of({pixels.begin(), pixels.end()});
+}
+
+Estimate image_mean(const RenderResult& result, const std::string& channel) {
+    const std::vector<float>& pixels = result.film.image.channels.at(channel);
+    const std::vector<float>& variances = result.film.image.channels.at("variance." + channel);
+    const auto n = static_cast<double>(pixels.size());
+    double sum = 0;
+    double squares = 0;
+    for (const float v : variances) {
+        sum += v;
+        squares += double{v} * v;
+    }
+    // Welch and Satterthwaite: pixels of unequal variance share fewer degrees of freedom
+    const double effective = squares > 0 ? sum * sum / squares : n;
+    return {
+        std::accumulate(pixels.begin(), pixels.end(), 0.0) / n, std::sqrt(sum) / n,
+        effective * (result.batches - 1)};
+}
+
+std::vector<Estimate> block_means(const RenderResult& result, const std::string& channel) {
+    const std::vector<float>& pixels = result.film.image.channels.at(channel);
+    const uint32_t width = result.film.image.width;
+    const uint32_t block_width = width / 8;
+    const uint32_t block_height = result.film.image.height / 8;
+    std::vector<Estimate> blocks;
+    for (uint32_t block = 0; block < 64; ++block) {
+        std::vector<double> values;
+        for (uint32_t y = 0; y < block_height; ++y)
+            for (uint32_t x = 0; x < block_width; ++x)
+                values.push_back(pixels[(block / 8 * block_height + y) * width + block % 8 * block_width + x]);
+        blocks.push_back(estimate_of(values));
+    }
+    return blocks;
+}
+
+Estimate sample_variance(const RenderResult& result, const std::string& channel) {
+    const std::vector<float>& pixels = result.film.image.channels.at(channel);
+    const auto n = static_cast<double>(pixels.size());
+    const double mean = std::accumulate(pixels.begin(), pixels.end(), 0.0) / n;
+    double second = 0;
+    double fourth = 0;
+    for (const float x : pixels) {
+        const double square = (x - mean) * (x - mean);
+        second += square / n;
+        fourth += square * square / n;
+    }
+    return {second * n / (n - 1), std::sqrt((fourth - second * second) / n), n - 1};
+}
+
+testing::AssertionResult has_mean(const Estimate& e, double truth, const Strictness& s) {
+    const double critical = critical_t(e.degrees, s);
+    return judge(
+        {e.mean - truth, e.error, e.degrees}, truth, critical, s,
+        fmt::format("{:.8g} against {:.8g}", e.mean, truth));
+}
+
+testing::AssertionResult agree(const Estimate& a, const Estimate& b, const Strictness& s) {
+    const double degrees = std::min(a.degrees, b.degrees);
+    return judge(
+        {a.mean - b.mean, std::hypot(a.error, b.error), degrees}, 0.5 * (a.mean + b.mean), critical_t(degrees, s), s,
+        fmt::format("{:.8g} against {:.8g}", a.mean, b.mean));
+}
+
+}  // namespace wavepath

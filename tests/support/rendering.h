@@ -1,0 +1,59 @@
+// Renders for the statistical tests, and how their pictures are judged: z-tests which a bias of 0.5 % fails with
+// probability .99 and a right renderer with probability 1e-6 (support/statistics.h).
+#pragma once
+
+#include "support/probe.h"
+#include "support/scenes.h"
+#include "support/statistics.h"
+#include "wavefront/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace wavepath {
+
+// For tests of minutes, whose names end in _long.
+bool long_tests_wanted();
+#define WAVEPATH_SKIP_UNLESS_LONG() \
+    if (!long_tests_wanted()) GTEST_SKIP() << "a long test: set WAVEPATH_LONG_TESTS=1"
+
+// Of a square image of `size` pixels a side.
+RenderSettings square_settings(
+    const std::string& method, const Camera& camera, uint32_t size, uint64_t samples);
+
+RenderResult render_scene(const Scene& scene, const RenderSettings& settings);
+
+// A mean with its standard error, and the degrees of freedom the error rests on.
+struct Estimate {
+    double mean = 0, error = 0, degrees = 0;
+};
+
+// Of independent values of one mean.
+Estimate estimate_of(const std::vector<double>& values);
+
+// Of an image whose pixels all have the same expected value: the error is the pixels' own scatter.
+Estimate shared_mean(const RenderResult& result, const std::string& channel = "R");
+
+// Of an image whose pixels differ: the error comes from the variance layer.
+Estimate image_mean(const RenderResult& result, const std::string& channel = "R");
+
+// Of the 8 x 8 blocks of an image whose pixels all have the same expected value.
+std::vector<Estimate> block_means(const RenderResult& result, const std::string& channel = "R");
+
+// Variance of one sample, from an image of one independent sample a pixel, and the variance's standard error.
+Estimate sample_variance(const RenderResult& result, const std::string& channel = "R");
+
+struct Strictness {
+    double bias = 0.005;     // relative: what the test has to catch with probability .99
+    std::size_t tests = 1;   // simultaneous ones
+    double truth_error = 0;  // relative error of the truth itself: tessellation, table digits
+};
+
+// |mean - truth| within chance, and few enough samples not to be the reason.
+testing::AssertionResult has_mean(const Estimate& e, double truth, const Strictness& strictness = {});
+// Two independent estimates of one mean.
+testing::AssertionResult agree(const Estimate& a, const Estimate& b, const Strictness& strictness = {});
+
+}  // namespace wavepath
