@@ -1,7 +1,9 @@
-// Closest hit and any hit of one ray in the 8-wide BVH: eight boxes or eight triangles a step, in one work-item, because
-// a traversal loop is what PoCL's vectoriser leaves scalar (docs/profiling.md has what was tried).
+// Closest hit and any hit of a ray in the 8-wide BVH: eight boxes or eight triangles a step, in one
+// work-item, because a traversal loop is what PoCL's vectoriser leaves scalar (docs/profiling.md
+// says what else was tried). A CPU takes many rays at once instead: geometry/ray_stream.cl.
 #pragma once
 
+#include "geometry/simd.cl"
 #include "geometry/triangle.cl"
 
 typedef struct {
@@ -10,39 +12,33 @@ typedef struct {
     int primitive;  // triangle id in scene order, -1: none
 } Hit;
 
-// Lanes of a comparison as bits. movmskps is one instruction where the compiler knows it.
-#if defined(__AVX__) && defined(__has_builtin)
-#if __has_builtin(__builtin_ia32_movmskps256)
-#define HAS_MOVMSKPS 1
-#endif
-#endif
-uint lane_mask(int8 lanes) {
-#ifdef HAS_MOVMSKPS
-    return (uint)__builtin_ia32_movmskps256(as_float8(lanes));
-#else
-    const int8 bits = lanes & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
-    const int4 quarter = bits.lo | bits.hi;
-    const int2 pair = quarter.lo | quarter.hi;
-    return (uint)(pair.x | pair.y);
-#endif
-}
-
-// A ray against slabs: t = plane * inverse + near (or far). Near bounds are moved towards the ray's start and far ones
-// away from it by `slack`, which exceeds the rounding of the slab test and of the sheared vertices together: each is
-// at most 4 ulp of the distance along the axis, at most max|o| + 0.5 in the normalised scene. So a box is never missed
-// whose triangle the triangle test would hit, and the margin costs nothing per node.
+// A ray against slabs: t = plane * inverse + near (or far). The normalised scene lies within 0.5 of
+// the origin, so everything is at most reach = max|o| + 0.5 away along an axis. Rounding moves a
+// slab by at most 4 ulp of that (inverse, product, fma), and the sheared vertices of the triangle
+// test by 4 more; near bounds come nearer and far ones go farther by 16 ulp of it. So no box is
+// missed whose triangle the triangle test would hit, and it costs nothing a node.
 typedef struct {
-    float ix, iy, iz;           // 1 / direction, finite
+    float ix, iy, iz;  // 1 / direction, finite
     float near_x, near_y, near_z;
     float far_x, far_y, far_z;
-    int row_x, row_y, row_z;    // which of the 6 rows of BvhNode::bounds comes first
+    int row_x, row_y,
+        row_z;  // where the bounds first met begin in BvhNode::bounds; ^ 8: the others
 } SlabRay;
 
-// 1/d with |d| raised to 1e-18: an axis-parallel ray gets finite slabs instead of 0 * infinity = NaN.
-float safe_reciprocal(float d) { return 1.0f / (fabs(d) < 1e-18f ? copysign(1e-18f, d) : d); }
+// 1/d with |d| raised to 1e-18: an axis-parallel ray gets finite slabs, not 0 * infinity = NaN.
+INLINE float safe_reciprocal(const float d) {
+    return 1.0f / (fabs(d) < 1e-18f ? copysign(1e-18f, d) : d);
+}
 
-SlabRay slab_ray(float ox, float oy, float oz, float dx, float dy, float dz) {
-    const float slack = 9.5367432e-7f * (max(fabs(ox), max(fabs(oy), fabs(oz))) + 0.5f);  // 16 ulp
+INLINE SlabRay slab_ray(
+    const float ox,
+    const float oy,
+    const float oz,
+    const float dx,
+    const float dy,
+    const float dz) {
+    const float reach = max(fabs(ox), max(fabs(oy), fabs(oz))) + 0.5f;
+    const float slack = 0x1p-20f * reach;
     SlabRay ray;
     ray.ix = safe_reciprocal(dx);
     ray.iy = safe_reciprocal(dy);
@@ -59,29 +55,66 @@ SlabRay slab_ray(float ox, float oy, float oz, float dx, float dy, float dz) {
     return ray;
 }
 
-// Children whose box the ray crosses before t_max, and where it enters them.
-uint intersect_node(global const BvhNode* node, const SlabRay* ray, float t_max, float8* t_near) {
+// Which children's boxes the ray crosses before t_max (-1), and where it enters them. A box entered
+// at t_max itself counts: what it holds may lie at the same distance and have a lower id.
+INLINE int8
+intersect_node(global const BvhNode* node, const SlabRay* ray, const float t_max, float8* t_near) {
     global const float* rows = &node->bounds[0][0][0];
-    const float8 near_x = fma(vload8(0, rows + ray->row_x), (float8)(ray->ix), (float8)(ray->near_x));
-    const float8 near_y = fma(vload8(0, rows + ray->row_y), (float8)(ray->iy), (float8)(ray->near_y));
-    const float8 near_z = fma(vload8(0, rows + ray->row_z), (float8)(ray->iz), (float8)(ray->near_z));
-    const float8 far_x = fma(vload8(0, rows + (ray->row_x ^ 8)), (float8)(ray->ix), (float8)(ray->far_x));
-    const float8 far_y = fma(vload8(0, rows + (ray->row_y ^ 8)), (float8)(ray->iy), (float8)(ray->far_y));
-    const float8 far_z = fma(vload8(0, rows + (ray->row_z ^ 8)), (float8)(ray->iz), (float8)(ray->far_z));
+    const float8 ix = ray->ix;
+    const float8 iy = ray->iy;
+    const float8 iz = ray->iz;
+    const float8 near_x = fma(vload8(0, rows + ray->row_x), ix, (float8)(ray->near_x));
+    const float8 near_y = fma(vload8(0, rows + ray->row_y), iy, (float8)(ray->near_y));
+    const float8 near_z = fma(vload8(0, rows + ray->row_z), iz, (float8)(ray->near_z));
+    const float8 far_x = fma(vload8(0, rows + (ray->row_x ^ 8)), ix, (float8)(ray->far_x));
+    const float8 far_y = fma(vload8(0, rows + (ray->row_y ^ 8)), iy, (float8)(ray->far_y));
+    const float8 far_z = fma(vload8(0, rows + (ray->row_z ^ 8)), iz, (float8)(ray->far_z));
     *t_near = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
-    return lane_mask(*t_near <= min(min(far_x, far_y), min(far_z, (float8)(t_max))));
+    return *t_near <= min(min(far_x, far_y), min(far_z, (float8)(t_max)));
 }
 
+// Keeps the closest of the block's hits. At equal distance the lowest id wins, so that the order of
+// the tree decides nothing.
+INLINE void closest_in_block(global const TriangleBlock* block, const ShearedRay* ray, Hit* hit) {
+    float8 t, u, v;
+    uint lanes = lane_mask(intersect_block(block, ray, hit->t, &t, &u, &v));
+    if (lanes == 0) return;
+    float ts[8], us[8], vs[8];
+    vstore8(t, 0, ts);
+    vstore8(u, 0, us);
+    vstore8(v, 0, vs);
+    do {
+        const uint lane = 31u - clz(lanes);
+        lanes ^= 1u << lane;
+        const int primitive = (int)block->primitives[lane];
+        if (ts[lane] < hit->t || (ts[lane] == hit->t && primitive < hit->primitive)) {
+            hit->t = ts[lane];
+            hit->u = us[lane];
+            hit->v = vs[lane];
+            hit->primitive = primitive;
+        }
+    } while (lanes != 0);
+}
+
+INLINE int any_in_block(
+    global const TriangleBlock* block, const ShearedRay* ray, const float t_max) {
+    float8 t, u, v;
+    return lane_mask(intersect_block(block, ray, t_max, &t, &u, &v) & (t < t_max)) != 0;
+}
+
+// The closest triangle in (0, t_max): the nearest child is entered, the others wait with their
+// distances and are dropped when a hit has come nearer. Not inlined: PoCL would give every
+// work-item of a group a stack of its own, where one serves all in turn and stays in the cache.
 Hit closest_hit(
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
-    float ox,
-    float oy,
-    float oz,
-    float dx,
-    float dy,
-    float dz,
-    float t_max) {
+    const float ox,
+    const float oy,
+    const float oz,
+    const float dx,
+    const float dy,
+    const float dz,
+    const float t_max) {
     const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
     Hit hit = {t_max, 0.0f, 0.0f, -1};
@@ -92,32 +125,10 @@ Hit closest_hit(
     for (;;) {
         uint lanes = 0;
         if (current & BVH_LEAF) {
-            uint block = (current & ~BVH_LEAF) >> 4;
-            const uint end = block + (current & 15u);
-            for (; block < end; ++block) {
-                float8 t, u, v;
-                uint hits = lane_mask(intersect_block(blocks + block, &sheared, hit.t, &t, &u, &v));
-                if (hits == 0) continue;
-                float ts[8], us[8], vs[8];
-                vstore8(t, 0, ts);
-                vstore8(u, 0, us);
-                vstore8(v, 0, vs);
-                while (hits != 0) {
-                    const uint lane = 31u - clz(hits);
-                    hits ^= 1u << lane;
-                    const int primitive = (int)blocks[block].primitives[lane];
-                    // At equal distance the lowest id wins, whatever the order of the tree.
-                    if (ts[lane] < hit.t || (ts[lane] == hit.t && primitive < hit.primitive)) {
-                        hit.t = ts[lane];
-                        hit.u = us[lane];
-                        hit.v = vs[lane];
-                        hit.primitive = primitive;
-                    }
-                }
-            }
+            closest_in_block(blocks + (current & ~BVH_LEAF), &sheared, &hit);
         } else {
             float8 t_near;
-            lanes = intersect_node(nodes + current, &slabs, hit.t, &t_near);
+            lanes = lane_mask(intersect_node(nodes + current, &slabs, hit.t, &t_near));
             if (lanes != 0) {
                 float ts[8];
                 vstore8(t_near, 0, ts);
@@ -150,17 +161,17 @@ Hit closest_hit(
     }
 }
 
-// 1 if a triangle lies in (0, t_max).
+// 1 if a triangle lies in (0, t_max). Any order of the children will do; not inlined, as above.
 int any_hit(
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
-    float ox,
-    float oy,
-    float oz,
-    float dx,
-    float dy,
-    float dz,
-    float t_max) {
+    const float ox,
+    const float oy,
+    const float oz,
+    const float dx,
+    const float dy,
+    const float dz,
+    const float t_max) {
     const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
     uint waiting[BVH_STACK];
@@ -168,16 +179,10 @@ int any_hit(
     uint current = 0;
     for (;;) {
         if (current & BVH_LEAF) {
-            uint block = (current & ~BVH_LEAF) >> 4;
-            const uint end = block + (current & 15u);
-            for (; block < end; ++block) {
-                float8 t, u, v;
-                const int8 hits = intersect_block(blocks + block, &sheared, t_max, &t, &u, &v);
-                if (lane_mask(hits & (t < t_max)) != 0) return 1;
-            }
+            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, t_max)) return 1;
         } else {
             float8 t_near;
-            uint lanes = intersect_node(nodes + current, &slabs, t_max, &t_near);
+            uint lanes = lane_mask(intersect_node(nodes + current, &slabs, t_max, &t_near));
             global const uint* children = nodes[current].children;
             while (lanes != 0) {
                 const uint lane = 31u - clz(lanes);

@@ -1,67 +1,72 @@
-// Eight triangles against one ray, watertight [Woop, Benthin, Wald 2013].
+// Eight triangles against one ray, watertight [Woop 2013].
 //
-// Each vertex is moved to the ray's origin and sheared so that the ray becomes the z axis; the origin is then inside the
-// projected triangle where the three edge functions agree in sign. A shared edge is seen from its two triangles with its
-// ends exchanged: the same two products, rounded alike, subtracted the other way round, so the two values are exact
-// negatives (mul, mul, sub; an fma would break this). Rounding is monotonic, so fl(a) - fl(b) never has the wrong sign
-// of a - b, it can only be zero; zero counts as inside for both. Hence no ray slips between two triangles, and the
-// paper's fallback to double, which asks for the exact sign, is not needed.
+// Each vertex is moved to the ray's origin and sheared so that the ray becomes the z axis; the
+// origin is then inside the projected triangle where the three edge functions agree in sign. A
+// shared edge is seen from its two triangles with its ends exchanged: the same two products,
+// rounded alike, subtracted the other way round, so the two values are exact negatives (mul, mul,
+// sub; an fma would break this). Rounding is monotonic, so fl(a) - fl(b) never has the wrong sign
+// of a - b, it can only be zero; zero counts as inside for both. Hence no ray slips between two
+// triangles, and the paper's fallback to double, which asks for the exact sign, is not needed.
 #pragma once
 
 #include "shared/bvh.h"
+#include "shared/inline.h"
 
-// The ray as the triangle test wants it: axes renamed so that z is the direction's largest component.
+// The ray as the triangle test wants it: axes renamed so that z is the direction's largest part.
 typedef struct {
     float ox, oy, oz;  // origin, in the renamed axes
-    float sx, sy, sz;  // shear: d.x / d.z, d.y / d.z, 1 / d.z
-    int kx, ky, kz;    // offsets of the axes in a vertex of a block: axis * 8
+    float sx, sy, sz;  // shear: -d.x / d.z, -d.y / d.z, 1 / d.z
+    int kx, ky, kz;    // where the axes are found in a vertex of a block: axis * 8
 } ShearedRay;
 
-ShearedRay shear_ray(float ox, float oy, float oz, float dx, float dy, float dz) {
-    const float ax = fabs(dx);
-    const float ay = fabs(dy);
-    const float az = fabs(dz);
-    const int z_wins = az >= max(ax, ay);
-    const int y_wins = !z_wins && ay >= ax;
+INLINE ShearedRay shear_ray(
+    const float ox,
+    const float oy,
+    const float oz,
+    const float dx,
+    const float dy,
+    const float dz) {
+    const int z_wins = fabs(dz) >= max(fabs(dx), fabs(dy));
+    const int y_wins = !z_wins && fabs(dy) >= fabs(dx);
     ShearedRay ray;
-    ray.kz = z_wins ? 16 : (y_wins ? 8 : 0);
     ray.kx = z_wins ? 0 : (y_wins ? 16 : 8);
-    ray.ky = 24 - ray.kz - ray.kx;
+    ray.ky = z_wins ? 8 : (y_wins ? 0 : 16);
+    ray.kz = z_wins ? 16 : (y_wins ? 8 : 0);
     ray.ox = z_wins ? ox : (y_wins ? oz : oy);
     ray.oy = z_wins ? oy : (y_wins ? ox : oz);
     ray.oz = z_wins ? oz : (y_wins ? oy : ox);
     ray.sz = 1.0f / (z_wins ? dz : (y_wins ? dy : dx));
-    ray.sx = (z_wins ? dx : (y_wins ? dz : dy)) * ray.sz;
-    ray.sy = (z_wins ? dy : (y_wins ? dx : dz)) * ray.sz;
+    ray.sx = -ray.sz * (z_wins ? dx : (y_wins ? dz : dy));
+    ray.sy = -ray.sz * (z_wins ? dy : (y_wins ? dx : dz));
     return ray;
 }
 
-// Distances and barycentrics of the lanes set in the result (-1: hit with 0 < t <= t_max; 0: not).
-int8 intersect_block(
+// Lanes hit with 0 < t <= t_max (-1), and where: distances, barycentrics of corners 1 and 2.
+INLINE int8 intersect_block(
     global const TriangleBlock* block,
     const ShearedRay* ray,
-    float t_max,
+    const float t_max,
     float8* t,
-    float8* u,   // barycentric of corner 1
-    float8* v) { // barycentric of corner 2
+    float8* u,
+    float8* v) {
     global const float* a = &block->vertices[0][0][0];
-    global const float* b = a + 24;
-    global const float* c = a + 48;
+    global const float* b = &block->vertices[1][0][0];
+    global const float* c = &block->vertices[2][0][0];
     const float8 az = vload8(0, a + ray->kz) - ray->oz;
     const float8 bz = vload8(0, b + ray->kz) - ray->oz;
     const float8 cz = vload8(0, c + ray->kz) - ray->oz;
-    const float8 ax = fma(az, (float8)(-ray->sx), vload8(0, a + ray->kx) - ray->ox);
-    const float8 ay = fma(az, (float8)(-ray->sy), vload8(0, a + ray->ky) - ray->oy);
-    const float8 bx = fma(bz, (float8)(-ray->sx), vload8(0, b + ray->kx) - ray->ox);
-    const float8 by = fma(bz, (float8)(-ray->sy), vload8(0, b + ray->ky) - ray->oy);
-    const float8 cx = fma(cz, (float8)(-ray->sx), vload8(0, c + ray->kx) - ray->ox);
-    const float8 cy = fma(cz, (float8)(-ray->sy), vload8(0, c + ray->ky) - ray->oy);
-    const float8 edge_a = cx * by - cy * bx;  // opposite corner 0
+    const float8 ax = fma(az, (float8)(ray->sx), vload8(0, a + ray->kx) - ray->ox);
+    const float8 ay = fma(az, (float8)(ray->sy), vload8(0, a + ray->ky) - ray->oy);
+    const float8 bx = fma(bz, (float8)(ray->sx), vload8(0, b + ray->kx) - ray->ox);
+    const float8 by = fma(bz, (float8)(ray->sy), vload8(0, b + ray->ky) - ray->oy);
+    const float8 cx = fma(cz, (float8)(ray->sx), vload8(0, c + ray->kx) - ray->ox);
+    const float8 cy = fma(cz, (float8)(ray->sy), vload8(0, c + ray->ky) - ray->oy);
+    const float8 edge_a = cx * by - cy * bx;  // of the edge opposite corner 0
     const float8 edge_b = ax * cy - ay * cx;
     const float8 edge_c = bx * ay - by * ax;
     const float8 lowest = min(edge_a, min(edge_b, edge_c));
     const float8 highest = max(edge_a, max(edge_b, edge_c));
-    const float8 det = edge_a + edge_b + edge_c;  // 0 inside means edge-on: all three are 0
+    const float8 det = edge_a + edge_b + edge_c;  // where the signs agree, 0 only if all three are
     const float8 inverse = 1.0f / det;
     *t = (edge_a * az + edge_b * bz + edge_c * cz) * (inverse * ray->sz);
     *u = edge_b * inverse;

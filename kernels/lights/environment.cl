@@ -8,7 +8,7 @@
 #include "shared/params.h"
 
 INLINE Vec3 environment_texel(
-    global const EnvironmentEntry* map, constant const RenderParams* params, const int x, const int y) {
+    global const EnvironmentEntry* map, const RenderParams* params, const int x, const int y) {
     const int width = (int)params->environment_width;
     const int height = (int)params->environment_height;
     const int column = x < 0 ? x + width : (x >= width ? x - width : x);
@@ -19,7 +19,7 @@ INLINE Vec3 environment_texel(
 
 // Bilinear between texel centres, wrapped in u.
 INLINE Vec3 environment_eval(
-    global const EnvironmentEntry* map, constant const RenderParams* params, const Vec3 d) {
+    global const EnvironmentEntry* map, const RenderParams* params, const Vec3 d) {
     const Vec3 scale = vec3(params->environment_r, params->environment_g, params->environment_b);
     if (!HAS_ENVIRONMENT_MAP) return scale;
     const float x = (atan2_turns(d.z, d.x) + 0.5f) * (float)params->environment_width - 0.5f;
@@ -40,7 +40,7 @@ INLINE Vec3 environment_eval(
 // pdf_w [1/sr] of environment_sample, without the choice of the light: uniform in (u, v) within a texel, so
 // pmf * width * height / (2 pi^2 sin theta) [Pharr, Jakob, Humphreys 2023, section 12.5].
 INLINE float environment_pdf_w(
-    global const EnvironmentEntry* map, constant const RenderParams* params, const Vec3 d) {
+    global const EnvironmentEntry* map, const RenderParams* params, const Vec3 d) {
     if (!HAS_ENVIRONMENT_MAP) return 0.25f * INV_PI_F;
     const int width = (int)params->environment_width;
     const int height = (int)params->environment_height;
@@ -52,7 +52,7 @@ INLINE float environment_pdf_w(
 }
 
 INLINE Vec3 environment_sample(
-    global const EnvironmentEntry* map, constant const RenderParams* params, const Bits2 bits) {
+    global const EnvironmentEntry* map, const RenderParams* params, const Bits2 bits) {
     if (!HAS_ENVIRONMENT_MAP) return sample_sphere(unit_pair(bits));
     const uint width = params->environment_width;
     const uint height = params->environment_height;

@@ -57,8 +57,8 @@ INLINE Vec3 select3(const int condition, const Vec3 yes, const Vec3 no) {
     return vec3(condition ? yes.x : no.x, condition ? yes.y : no.y, condition ? yes.z : no.z);
 }
 
-// Plane k of a group of planes (shared/path.h). Every kernel reads `stride` before its guard: there it is loop-invariant,
-// and PoCL sees that neighbouring work-items touch neighbouring floats.
+// Plane k of a group of planes (shared/path.h). Every kernel reads `stride` and its other parameters before its guard:
+// behind it the load would be conditional, and PoCL would gather what lies side by side.
 #define PLANE(group, k) ((group) + (k)*stride)
 
 INLINE Vec3 load3(global const float* plane, const size_t stride, const size_t slot) {

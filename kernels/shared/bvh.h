@@ -1,14 +1,14 @@
-// The acceleration structure: an 8-wide BVH over blocks of 8 triangles, in structure-of-arrays form so that one ray tests
-// 8 boxes or 8 triangles with one float8 operation each (Wald, Benthin, Boulos 2008: "Getting rid of packets").
+// The acceleration structure: an 8-wide BVH over blocks of 8 triangles, in structure-of-arrays form
+// so that one ray tests 8 boxes or 8 triangles with one float8 operation each [Wald 2008].
 #ifndef WAVEPATH_BVH_H
 #define WAVEPATH_BVH_H
 
 #include "shared/cl_types.h"
 
-// children[k]: an inner node's index, or a leaf: BVH_LEAF | first block << 4 | number of blocks, or BVH_EMPTY.
+// children[k]: an inner node's index, or BVH_LEAF | the index of a block, or BVH_EMPTY.
 #define BVH_LEAF 0x80000000u
 #define BVH_EMPTY 0xFFFFFFFFu
-#define BVH_STACK 64  // entries; the builder refuses a tree that could need more
+#define BVH_STACK 96  // entries; the builder refuses a tree that could need more
 
 typedef struct {
     // [axis][0: low, 1: high][child], normalised scene space; an empty child's box is inverted

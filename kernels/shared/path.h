@@ -98,6 +98,7 @@ enum IdPlane {
     ID_PIXEL,       // y * width + x
     ID_PASS,        // row of the sample plan, counted from the first of the window
     ID_SAMPLE,      // of the unit
+    ID_LEFT,        // samples of the unit after this one
     ID_SEED,        // hash of (seed, pixel, batch)
     ID_INDEX,       // of the sample within its batch, bits reversed
     ID_SCATTERING,  // scatterings so far

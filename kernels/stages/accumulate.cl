@@ -1,5 +1,5 @@
 // Adds every finished sample to its unit's sum, and hands the sum over when the unit is done.
-// reads: hits, plan    writes: radiances, ids, cells, cell_flags
+// reads: hits    writes: radiances, ids, cells, cell_flags
 // One work-item a slot. A cell belongs to one unit, so it has one writer.
 
 #include "sampling/vector.cl"
@@ -12,15 +12,15 @@ INLINE int is_finite_bits(const float x) {
 }
 
 kernel void accumulate(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const float* restrict hits,
-    global const PlanRow* restrict plan,
     global float* restrict radiances,
     global uint* restrict ids,
     global float* restrict cells,
     global uint* restrict cell_flags) {
-    const size_t stride = params->stride;
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
@@ -34,13 +34,13 @@ kernel void accumulate(
     const uint counted = (flags + 0x10000u) | (flags == 0 ? sample + 1 : 0);
     PLANE(ids, ID_NONFINITE)[slot] = finite ? flags : counted;
 
-    if (sample + 1 < plan[(int)PLANE(ids, ID_PASS)[slot]].samples) return;
+    if (PLANE(ids, ID_LEFT)[slot] > 0) return;
     const int cell = (int)PLANE(ids, ID_CELL)[slot];
     cell_flags[cell] = finite ? flags : counted;
     PLANE(ids, ID_NONFINITE)[slot] = 0;
 #pragma unroll
     for (int k = 0; k < SUM_PLANES; ++k) {
-        cells[k * (int)params->cells + cell] = PLANE(radiances, SUM_R + k)[slot];
+        cells[k * (int)params.cells + cell] = PLANE(radiances, SUM_R + k)[slot];
         PLANE(radiances, SUM_R + k)[slot] = 0.0f;
     }
 }

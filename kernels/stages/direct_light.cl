@@ -10,7 +10,7 @@
 #include "sampling/dimensions.cl"
 
 kernel void direct_light(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const float* restrict triangles,
     global const DeviceMaterial* restrict materials,
@@ -22,7 +22,8 @@ kernel void direct_light(
     global const float* restrict throughputs,
     global const uint* restrict ids,
     global float* restrict shadows) {
-    const size_t stride = params->stride;
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
@@ -40,7 +41,7 @@ kernel void direct_light(
     const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
     const Bits2 choice = scattering_pair(seed, index, branch, scattering, PAIR_CHOICE);
     const Bits2 point = scattering_pair(seed, index, branch, scattering, PAIR_LIGHT_POINT);
-    global const DeviceLight* light = lights + (int)choose_light(lights, params->light_count, choice.u);
+    global const DeviceLight* light = lights + (int)choose_light(lights, params.light_count, choice.u);
     LightSample s;
     s.p = p;
     s.wi = n;
@@ -57,10 +58,10 @@ kernel void direct_light(
     }
     if (HAS_ENVIRONMENT) {
         const int is_environment = light->kind == LIGHT_ENVIRONMENT;
-        const Vec3 wi = environment_sample(environment, params, point);
-        const float pdf_w = light->pmf * environment_pdf_w(environment, params, wi);
+        const Vec3 wi = environment_sample(environment, &params, point);
+        const float pdf_w = light->pmf * environment_pdf_w(environment, &params, wi);
         const Vec3 radiance =
-            scale3(environment_eval(environment, params, wi), pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
+            scale3(environment_eval(environment, &params, wi), pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
         s.p = select3(is_environment, madd3(p, wi, OUTSIDE_SCENE), s.p);
         s.wi = select3(is_environment, wi, s.wi);
         s.radiance = select3(is_environment, radiance, s.radiance);
@@ -78,7 +79,7 @@ kernel void direct_light(
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
     // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay scalar on PoCL.
-    float t_max = scattering < params->max_scatterings ? 1.0f : 0.0f;
+    float t_max = scattering < params.max_scatterings ? 1.0f : 0.0f;
     t_max *= dot3(ng, s.wi) > 0.0f ? 1.0f : 0.0f;
     t_max *= wi.z > 0.0f ? 1.0f : 0.0f;
     t_max *= max_component3(value) > 0.0f ? 1.0f : 0.0f;

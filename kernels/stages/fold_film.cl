@@ -24,24 +24,25 @@ INLINE Compensated add_compensated(Compensated c, const float value) {
 }
 
 kernel void fold_film(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     global const PlanRow* restrict plan,
     global const float* restrict cells,
     global const uint* restrict cell_flags,
     global float* restrict film,
     global uint* restrict film_flags) {
+    const RenderParams params = *settings;
     const uint i = (uint)get_global_id(0);
-    if (i >= params->window_pixels) return;
-    const uint pixels = params->width * params->height;
-    const uint pixel = params->first_pixel + i;
-    const uint passes = params->cells / params->window_pixels;
+    if (i >= params.window_pixels) return;
+    const uint pixels = params.width * params.height;
+    const uint pixel = params.first_pixel + i;
+    const uint passes = params.cells / params.window_pixels;
 
     for (uint k = 0; k < SUM_PLANES; ++k) {
         Compensated total;
         total.sum = film[(FILM_SUM + k) * pixels + pixel];
         total.lost = film[(FILM_LOST + k) * pixels + pixel];
         for (uint pass = 0; pass < passes; ++pass)
-            total = add_compensated(total, cells[k * params->cells + pass * params->window_pixels + i]);
+            total = add_compensated(total, cells[k * params.cells + pass * params.window_pixels + i]);
         film[(FILM_SUM + k) * pixels + pixel] = total.sum;
         film[(FILM_LOST + k) * pixels + pixel] = total.lost;
     }
@@ -53,7 +54,7 @@ kernel void fold_film(
         float mean = film[(FILM_MEAN + k) * pixels + pixel];
         float deviation = film[(FILM_DEVIATION + k) * pixels + pixel];
         for (uint pass = 0; pass < passes; ++pass) {
-            batch = add_compensated(batch, cells[k * params->cells + pass * params->window_pixels + i]);
+            batch = add_compensated(batch, cells[k * params.cells + pass * params.window_pixels + i]);
             if (plan[pass].closes_batch == 0) continue;
             const float n = (float)plan[pass].closes_batch;
             const float batch_mean = (batch.sum - batch.lost) / n;
@@ -70,7 +71,7 @@ kernel void fold_film(
     }
 
     for (uint pass = 0; pass < passes; ++pass) {
-        const uint flags = cell_flags[pass * params->window_pixels + i];
+        const uint flags = cell_flags[pass * params.window_pixels + i];
         if (flags == 0) continue;
         if (film_flags[FILM_NONFINITE * pixels + pixel] == 0) {
             const uint sample = plan[pass].samples_before + plan[pass].first_sample + (flags & 0xffffu) - 1;

@@ -8,7 +8,7 @@
 #include "shared/path.h"
 
 kernel void generate_rays(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const PlanRow* restrict plan,
     global float* restrict hits,
@@ -16,7 +16,8 @@ kernel void generate_rays(
     global float* restrict rays,
     global float* restrict throughputs,
     global float* restrict radiances) {
-    const size_t stride = params->stride;
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
@@ -25,25 +26,34 @@ kernel void generate_rays(
     const uint old_cell = PLANE(ids, ID_CELL)[slot];
     const uint old_pixel = PLANE(ids, ID_PIXEL)[slot];
     const uint old_pass = PLANE(ids, ID_PASS)[slot];
-    const uint next_sample = PLANE(ids, ID_SAMPLE)[slot] + 1;
-    const int same_unit = next_sample < plan[(int)old_pass].samples;
-    const uint stepped = old_pixel - params->first_pixel + params->pixel_step;
-    const uint wrapped = stepped >= params->window_pixels;
-    const uint cell = same_unit ? old_cell : old_cell + params->pool;
-    if (cell >= params->cells) {
+    const uint old_left = PLANE(ids, ID_LEFT)[slot];
+    const int same_unit = old_left > 0;
+    const uint cell = same_unit ? old_cell : old_cell + params.pool;
+    if (cell >= params.cells) {
         PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(HIT_IDLE);
         return;
     }
-    const uint pixel = same_unit ? old_pixel : params->first_pixel + stepped - (wrapped ? params->window_pixels : 0);
-    const uint pass = same_unit ? old_pass : old_pass + params->pass_step + wrapped;
-    const uint sample = same_unit ? next_sample : 0;
-
-    const uint seed = hash_pair(hash_pair(params->seed, pixel), plan[(int)pass].batch);
-    const uint index = reverse_bits_32(plan[(int)pass].first_sample + sample);
+    uint pixel = old_pixel;
+    uint pass = old_pass;
+    uint left = old_left - 1;
+    uint sample = PLANE(ids, ID_SAMPLE)[slot] + 1;
+    uint seed = PLANE(ids, ID_SEED)[slot];
+    uint index = reverse_bits_32(reverse_bits_32(PLANE(ids, ID_INDEX)[slot]) + 1);
+    if (!same_unit) {
+        const uint stepped = old_pixel - params.first_pixel + params.pixel_step;
+        const uint wrapped = stepped >= params.window_pixels;
+        pixel = params.first_pixel + stepped - (wrapped ? params.window_pixels : 0);
+        pass = old_pass + params.pass_step + wrapped;
+        left = plan[(int)pass].samples - 1;
+        sample = 0;
+        seed = hash_pair(hash_pair(params.seed, pixel), plan[(int)pass].batch);
+        index = reverse_bits_32(plan[(int)pass].first_sample);
+    }
     PLANE(ids, ID_CELL)[slot] = cell;
     PLANE(ids, ID_PIXEL)[slot] = pixel;
     PLANE(ids, ID_PASS)[slot] = pass;
     PLANE(ids, ID_SAMPLE)[slot] = sample;
+    PLANE(ids, ID_LEFT)[slot] = left;
     PLANE(ids, ID_SEED)[slot] = seed;
     PLANE(ids, ID_INDEX)[slot] = index;
     PLANE(ids, ID_SCATTERING)[slot] = 0;
@@ -52,18 +62,18 @@ kernel void generate_rays(
     // the ray through a point of the pixel, uniform: one box filter
     const Sample2 jitter = unit_pair(dimension_pair(seed, index, PAIR_PIXEL, 1));
     // exact below 2^24 pixels a side; a float quotient may be off by one, hence the correction
-    const uint width = params->width;
+    const uint width = params.width;
     const uint guess = (uint)((float)pixel / (float)width);
     const uint below = guess * width > pixel ? guess - 1 : guess;
     const uint row = pixel - below * width >= width ? below + 1 : below;
     const float x = (float)(pixel - row * width) + jitter.u;
     const float y = (float)row + jitter.v;
-    const Vec3 corner = vec3(params->corner_x, params->corner_y, params->corner_z);
-    const Vec3 right = vec3(params->right_x, params->right_y, params->right_z);
-    const Vec3 down = vec3(params->down_x, params->down_y, params->down_z);
-    const Vec3 camera = vec3(params->camera_x, params->camera_y, params->camera_z);
+    const Vec3 corner = vec3(params.corner_x, params.corner_y, params.corner_z);
+    const Vec3 right = vec3(params.right_x, params.right_y, params.right_z);
+    const Vec3 down = vec3(params.down_x, params.down_y, params.down_z);
+    const Vec3 camera = vec3(params.camera_x, params.camera_y, params.camera_z);
     const Vec3 film = madd3(madd3(corner, right, x), down, y);
-    const int orthographic = params->orthographic != 0;
+    const int orthographic = params.orthographic != 0;
     store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, select3(orthographic, film, camera));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, select3(orthographic, camera, normalize3(film)));
 

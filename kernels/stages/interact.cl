@@ -6,14 +6,14 @@
 #include "shared/params.h"
 
 kernel void interact(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const float* restrict triangles,
     global const DeviceMaterial* restrict materials,
     global const float* restrict rays,
     global const float* restrict hits,
     global float* restrict surfaces) {
-    const size_t stride = params->stride;
+    const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);

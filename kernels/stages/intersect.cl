@@ -8,13 +8,13 @@
 #include "shared/path.h"
 
 kernel void intersect(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
     global const float* restrict rays,
     global float* restrict hits) {
-    const size_t stride = params->stride;
+    const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return;

@@ -8,7 +8,7 @@
 #include "shared/path.h"
 
 kernel void move_paths(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint count,
     global const uint* restrict holes,
     global const uint* restrict movers,
@@ -18,7 +18,8 @@ kernel void move_paths(
     global float* restrict radiances,
     global uint* restrict ids,
     global float* restrict branches) {
-    const size_t stride = params->stride;
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     const uint from = movers[i];
@@ -29,7 +30,7 @@ kernel void move_paths(
     for (int k = 0; k < RADIANCE_PLANES; ++k) PLANE(radiances, k)[to] = PLANE(radiances, k)[from];
     for (int k = 0; k < ID_PLANES; ++k) PLANE(ids, k)[to] = PLANE(ids, k)[from];
     if (HAS_SPLITS)
-        for (int k = 0; k < BRANCH_PLANES * (int)params->split_depth; ++k)
+        for (int k = 0; k < BRANCH_PLANES * (int)params.split_depth; ++k)
             PLANE(branches, k)[to] = PLANE(branches, k)[from];
     PLANE(hits, HIT_PRIMITIVE)[from] = as_float(HIT_IDLE);
 }

@@ -9,14 +9,14 @@
 #include "shared/queues.h"
 
 kernel void occlusion(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
     global const float* restrict shadows,
     global float* restrict radiances,
     global uchar* restrict fates) {
-    const size_t stride = params->stride;
+    const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];

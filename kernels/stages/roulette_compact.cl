@@ -1,5 +1,5 @@
 // Decides which paths go on (notes 4, Russian roulette: survivors carry 1/q) and what becomes of each slot.
-// reads: plan    writes: throughputs, hits (the end), ids (scatterings of the last ray traced), fates
+// reads: ids    writes: throughputs, hits (the end), ids (scatterings of the last ray traced), fates
 // One work-item a slot. scan_queue counts the fates.
 
 #include "sampling/dimensions.cl"
@@ -9,14 +9,14 @@
 #include "shared/queues.h"
 
 kernel void roulette_compact(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
-    global const PlanRow* restrict plan,
     global uint* restrict ids,
     global float* restrict hits,
     global float* restrict throughputs,
     global uchar* restrict fates) {
-    const size_t stride = params->stride;
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
@@ -29,8 +29,8 @@ kernel void roulette_compact(
 
     // q: constant, or what the path still carries; never above 1
     float survival = 1.0f;
-    survival = params->roulette == 1 ? min(1.0f, max_component3(throughput)) : survival;
-    survival = params->roulette == 2 ? params->survival : survival;
+    survival = params.roulette == 1 ? min(1.0f, max_component3(throughput)) : survival;
+    survival = params.roulette == 2 ? params.survival : survival;
     const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
     const uint dimension = PAIR_FIRST + scattering * SCATTERING_PAIRS + PAIR_ROULETTE;
     const uint seed = hash_pair(PLANE(ids, ID_SEED)[slot], HAS_SPLITS ? hash_pair(dimension, branch) : dimension);
@@ -42,9 +42,7 @@ kernel void roulette_compact(
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(ends ? HIT_ENDED : primitive);
     PLANE(ids, ID_SCATTERING)[slot] = scattering - (dies ? 1 : 0);
 
-    const uint pass = PLANE(ids, ID_PASS)[slot];
-    const int has_next = PLANE(ids, ID_SAMPLE)[slot] + 1 < plan[(int)pass].samples ||
-                         PLANE(ids, ID_CELL)[slot] + params->pool < params->cells;
+    const int has_next = PLANE(ids, ID_LEFT)[slot] > 0 || PLANE(ids, ID_CELL)[slot] + params.pool < params.cells;
     const uint connected = SAMPLE_LIGHTS ? fates[slot] : 0u;
     fates[slot] = (uchar)(connected | (!ends || has_next ? FATE_ACTIVE : 0u) | (ends ? FATE_ENDED : 0u));
 }

@@ -7,7 +7,7 @@
 #include "shared/params.h"
 
 kernel void sample_indirect(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const DeviceMaterial* restrict materials,
     global const float* restrict surfaces,
@@ -15,7 +15,8 @@ kernel void sample_indirect(
     global float* restrict hits,
     global float* restrict throughputs,
     global uint* restrict ids) {
-    const size_t stride = params->stride;
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
@@ -37,7 +38,7 @@ kernel void sample_indirect(
     const Vec3 wi = to_world(frame, s.wi);
     const Vec3 throughput = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.weight);
     // A direction on the far side of the face would leak light through it: it counts as absorbed.
-    float goes_on = scattering < params->max_scatterings ? 1.0f : 0.0f;
+    float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= s.wi.z > 0.0f ? 1.0f : 0.0f;
     goes_on *= dot3(ng, wi) > 0.0f ? 1.0f : 0.0f;
     goes_on *= max_component3(throughput) <= 0.0f ? 0.0f : 1.0f;  // NaN goes on, to be found and counted

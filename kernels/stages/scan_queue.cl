@@ -8,13 +8,13 @@
 #include "shared/queues.h"
 
 kernel void scan_queue(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const uchar* restrict fates,
     global const uint* restrict ids,
     global ChunkState* restrict chunks,
     global uint* restrict statistics) {
-    const size_t stride = params->stride;
+    const size_t stride = settings->stride;
     const uint chunk = (uint)get_global_id(0);
     const uint first = chunk * QUEUE_CHUNK;
     if (first >= slots) return;

@@ -9,14 +9,14 @@
 #include "shared/queues.h"
 
 kernel void scatter_queue(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     const uint kept,
     global const float* restrict hits,
     global const ChunkState* restrict chunks,
     global uint* restrict holes,
     global uint* restrict movers) {
-    const size_t stride = params->stride;
+    const size_t stride = settings->stride;
     const uint chunk = (uint)get_global_id(0);
     const uint first = chunk * QUEUE_CHUNK;
     if (first >= slots) return;

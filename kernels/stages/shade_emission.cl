@@ -7,7 +7,7 @@
 #include "shared/params.h"
 
 kernel void shade_emission(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const DeviceMaterial* restrict materials,
     global const DeviceLight* restrict lights,
@@ -16,7 +16,7 @@ kernel void shade_emission(
     global const float* restrict surfaces,
     global const float* restrict throughputs,
     global float* restrict radiances) {
-    const size_t stride = params->stride;
+    const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) < 0) return;

@@ -7,14 +7,15 @@
 #include "shared/path.h"
 
 kernel void shade_miss(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const EnvironmentEntry* restrict environment,
     global const float* restrict rays,
     global const float* restrict hits,
     global const float* restrict throughputs,
     global float* restrict radiances) {
-    const size_t stride = params->stride;
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     const int missed = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_MISS;
@@ -23,14 +24,14 @@ kernel void shade_miss(
 
     // Light sampling could have chosen this direction too: leave it its share (direct: all of it).
     float weight = 1.0f;
-    if (SAMPLE_LIGHTS && params->environment_pmf > 0.0f) {
-        const float light_pdf_w = params->environment_pmf * environment_pdf_w(environment, params, direction);
+    if (SAMPLE_LIGHTS && params.environment_pmf > 0.0f) {
+        const float light_pdf_w = params.environment_pmf * environment_pdf_w(environment, &params, direction);
         const float share = WEIGH_BOTH ? power_heuristic(pdf_w, light_pdf_w) : 0.0f;
         weight = pdf_w == PDF_CERTAIN ? 1.0f : share;
     }
     const Vec3 carried = scale3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), missed ? weight : 0.0f);
     global float* radiance = PLANE(radiances, RADIANCE_R);
-    const Vec3 light = environment_eval(environment, params, direction);
+    const Vec3 light = environment_eval(environment, &params, direction);
     const Vec3 before = load3(radiance, stride, slot);
     store3(radiance, stride, slot, select3(missed, add3(before, mul3(carried, light)), before));
 }

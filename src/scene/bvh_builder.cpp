@@ -16,7 +16,6 @@ namespace {
 
 constexpr unsigned branching = 8;
 constexpr unsigned block_size = 8;
-constexpr std::size_t max_blocks = std::size_t{1} << 27U;  // BVH_LEAF leaves 27 bits for a leaf's first block
 
 // Embree's builder hands out nodes and leaves from its own arena; this tree is flattened and dropped.
 struct BuildNode {
@@ -196,10 +195,9 @@ class Flattener {
   private:
     shared_uint place_leaf(const LeafNode& leaf, unsigned& stack) {
         stack = 0;
-        const std::size_t first = bvh_.blocks.size();
-        if (first >= max_blocks) throw Error("too many triangles for one acceleration structure: the limit is 2^27 blocks of 8; split the scene");
+        const std::size_t block = bvh_.blocks.size();
         bvh_.blocks.push_back(make_block(leaf, positions_));
-        return static_cast<shared_uint>(BVH_LEAF | (first << 4U) | 1U);
+        return BVH_LEAF | static_cast<shared_uint>(block);
     }
 
     const std::vector<float>& positions_;

@@ -61,7 +61,7 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
     start(window, params);
     uint32_t slots = std::min(pool_.slots, static_cast<uint32_t>(window.pixels * window.rows.size()));
     uint32_t active = slots;
-    assign_units_.launch(device_, slots, params_, slots, pool_.hits, pool_.ids, pool_.radiances);
+    assign_units_.launch(device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.radiances);
     while (active > 0) {
         generate_rays_.launch(device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays, pool_.throughputs, pool_.radiances);
         intersect_.launch(device_, slots, params_, slots, scene_.nodes, scene_.blocks, pool_.rays, pool_.hits);
@@ -77,8 +77,8 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
             occlusion_->launch(device_, slots, params_, slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
         }
         sample_indirect_.launch(device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids);
-        roulette_compact_.launch(device_, slots, params_, slots, plan_, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
-        accumulate_.launch(device_, slots, params_, slots, pool_.hits, plan_, pool_.radiances, pool_.ids, cells_, cell_flags_);
+        roulette_compact_.launch(device_, slots, params_, slots, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
+        accumulate_.launch(device_, slots, params_, slots, pool_.hits, pool_.radiances, pool_.ids, cells_, cell_flags_);
         closest_rays_ += active;
         active = count_active(slots, window);
         ++iterations_;

@@ -85,7 +85,7 @@ class QueueManager {
     uint64_t iterations_ = 0;
     uint64_t closest_rays_ = 0;
 
-    Stage<Params, cl_uint, Floats, Uints, Floats> assign_units_;
+    Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats> generate_rays_;
     Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats> intersect_;
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
@@ -95,11 +95,11 @@ class QueueManager {
     std::optional<Stage<Params, cl_uint, Floats, Materials, Lights, Map, Floats, Floats, Floats, Floats, Uints, Floats>> direct_light_;
     std::optional<Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Fates>> occlusion_;
     Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints> sample_indirect_;
-    Stage<Params, cl_uint, Plan, Uints, Floats, Floats, Fates> roulette_compact_;
+    Stage<Params, cl_uint, Uints, Floats, Floats, Fates> roulette_compact_;
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
     Stage<Params, cl_uint, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats> move_paths_;
-    Stage<Params, cl_uint, Floats, Plan, Floats, Uints, Floats, Uints> accumulate_;
+    Stage<Params, cl_uint, Floats, Floats, Uints, Floats, Uints> accumulate_;
     Stage<Params, Plan, Floats, Uints, Floats, Uints> fold_film_;
 };
 

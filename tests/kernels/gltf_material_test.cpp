@@ -83,7 +83,7 @@ kernel void breaches(
     if (!(min(min(b.weight.x, b.weight.y), b.weight.z) >= 0.0f && b.pdf_w >= 0.0f)) atomic_inc(out + 1);
     if (!(fabs(product.x - value.x) <= 1e-6f * value.x + 1e-30f)) atomic_inc(out + 2);
     if (!(fabs(product.z - value.z) <= 1e-6f * value.z + 1e-30f)) atomic_inc(out + 2);
-    if (b.wi.z > 0.0f && mu > 0.0f) {
+    if (b.wi.z > 0.0f && mu >= 0.05f) {  // at grazing angles 1 - F cancels
         const float there = value.y * wo.z;
         const float back = gltf_eval(s, b.wi, wo).y * b.wi.z;
         if (!(fabs(there - back) <= 1e-4f * there + 1e-30f)) atomic_inc(out + 3);
@@ -185,7 +185,7 @@ struct AlbedoRow {
 
 void expect_albedos(const Probe& tested, const AlbedoRow& row, std::size_t comparisons) {
     constexpr std::size_t batches = 512;
-    const auto n = static_cast<cl_uint>(scaled(1536));
+    const auto n = static_cast<cl_uint>(scaled(2304));
     for (const bool metal : {false, true}) {
         const auto out = tested.run<cl_float>(
             "albedos", batches, 3 * batches,
@@ -255,11 +255,13 @@ TEST(GltfMaterial, SmoothSurfacesAreMirrors) {
             for (std::size_t i = 0; i < samples; ++i) {
                 weight.add(out[3 * i]);
                 EXPECT_LT(out[3 * i + 2], 1e-12F);
-                if (metallic == 1) EXPECT_EQ(out[3 * i + 1], 1.0F);
+                if (metallic == 1) {
+                    EXPECT_EQ(out[3 * i + 1], 1.0F);
+                }
             }
             const double f0 = metallic == 1 ? 0.5 : 0.04;
             const double reflectance = f0 + (1 - f0) * std::pow(1 - double{mu}, 5);
-            if (samples >= 128) EXPECT_TRUE(mean_is(weight, reflectance, 4)) << metallic << ' ' << mu;
+            EXPECT_TRUE(samples < 128 || mean_is(weight, reflectance, 4)) << metallic << ' ' << mu;
         }
 }
 

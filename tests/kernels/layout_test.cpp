@@ -1,7 +1,6 @@
 // Structs of kernels/shared/ lie in memory alike on both sides of the bus.
 #include "shared/bvh.h"
 #include "shared/params.h"
-#include "shared/queues.h"
 #include "shared/scene.h"
 #include "support/probe.h"
 
@@ -65,11 +64,7 @@ namespace {
     FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)                    \
     STRUCT(PlanRow)                                                                            \
     FIELD(PlanRow, batch) FIELD(PlanRow, samples_before) FIELD(PlanRow, first_sample)          \
-    FIELD(PlanRow, samples) FIELD(PlanRow, closes_batch) FIELD(PlanRow, padding)               \
-    STRUCT(QueueSizes)                                                                         \
-    FIELD(QueueSizes, active) FIELD(QueueSizes, ended) FIELD(QueueSizes, runaway_lock)         \
-    FIELD(QueueSizes, runaway_pixel) FIELD(QueueSizes, runaway_pass)                           \
-    FIELD(QueueSizes, runaway_sample) FIELD(QueueSizes, padding)
+    FIELD(PlanRow, samples) FIELD(PlanRow, closes_batch) FIELD(PlanRow, padding)
 
 // A row of the table as one side sees it: where a field begins, or a struct ends.
 struct Row {
@@ -92,7 +87,7 @@ const std::string device_layout =
 
 TEST(Layout, HostAndDeviceAgree) {
     const Probe probe(
-        {"shared/bvh.h", "shared/params.h", "shared/queues.h", "shared/scene.h"}, device_layout);
+        {"shared/bvh.h", "shared/params.h", "shared/scene.h"}, device_layout);
     const auto places = probe.run<cl_uint>("layout", 1, host_layout.size());
     for (std::size_t k = 0; k < places.size(); ++k)
         EXPECT_EQ(places[k], host_layout[k].place) << host_layout[k].name;

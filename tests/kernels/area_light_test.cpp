@@ -1,0 +1,173 @@
+#include "shared/scene.h"
+#include "support/probe.h"
+#include "support/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace wavepath {
+namespace {
+
+using std::numbers::pi;
+
+constexpr std::size_t batches = 512;
+
+const Probe& probe() {
+    static const Probe instance({"lights/area_light.cl"}, R"(
+// Over n samples an item: means of 1 / pdf_w [sr], of L cos / pdf_w and of its square; worst error of area_light_pdf_w.
+// place: point, unit normal. Lights lie in the plane z = 1.
+kernel void light_samples(
+    const uint count, global float* out, global const float* triangles,
+    global const DeviceMaterial* materials, global const DeviceLight* lights,
+    const uint light_count, global const float* place, const uint n) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) return;
+    const Vec3 from = load3(place, 1, 0);
+    const Vec3 normal = load3(place + 3, 1, 0);
+    float solid_angle = 0.0f;
+    float sum = 0.0f;
+    float squares = 0.0f;
+    float worst = 0.0f;
+    for (uint k = 0; k < n; ++k) {
+        const Sample2 u = unit_pair(independent_pair(i * n + k, 61));
+        const uint chosen = choose_light(lights, light_count, independent_pair(i * n + k, 62).u);
+        const LightSample s = area_light_sample(triangles, materials, lights + chosen, from, u);
+        const float value = s.radiance.x * max(dot3(s.wi, normal), 0.0f);
+        solid_angle += s.radiance.x;
+        sum += value;
+        squares += value * value;
+        const float distance = (1.0f - from.z) / s.wi.z;
+        const float again = area_light_pdf_w(lights + chosen, distance, fabs(s.wi.z));
+        worst = max(worst, fabs(again / s.pdf_w - 1.0f));
+    }
+    out[4 * i] = solid_angle / (float)n;
+    out[4 * i + 1] = sum / (float)n;
+    out[4 * i + 2] = squares / (float)n;
+    out[4 * i + 3] = worst;
+}
+)", "#define HAS_VERTEX_NORMALS 0\n#define HAS_VERTEX_COLORS 0\n");
+    return instance;
+}
+
+using Corner = std::array<float, 2>;  // in the plane z = 1
+
+// Triangles of radiance 1 that shine down, chosen with the given chances.
+struct Lights {
+    std::vector<cl_float> triangles;
+    std::vector<DeviceMaterial> materials = std::vector<DeviceMaterial>(1);
+    std::vector<DeviceLight> lights;
+
+    void add(const std::array<Corner, 3>& clockwise, float pmf) {
+        const auto [a, b, c] = clockwise;
+        DeviceLight light{};
+        light.kind = LIGHT_TRIANGLE;
+        light.primitive = static_cast<cl_uint>(lights.size());
+        light.pmf = pmf;
+        light.area = 0.5F * std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+        // two lights at most: an alias table by hand
+        light.alias_threshold = lights.empty() ? 1.0F : 2 * pmf;
+        if (!lights.empty()) lights.front().alias_threshold = 1.0F;
+        light.alias = 0;
+        materials.front().emission_r = 1;
+        triangles.insert(
+            triangles.end(), {std::bit_cast<float>(0U), std::bit_cast<float>(light.primitive), a[0], a[1], 1,
+                              b[0], b[1], 1, c[0], c[1], 1, 0});
+        lights.push_back(light);
+    }
+};
+
+// The unit square as two triangles, the second chosen with chance `pmf` <= 1/2.
+Lights square(float pmf) {
+    Lights lights;
+    lights.add({Corner{-0.5F, -0.5F}, Corner{-0.5F, 0.5F}, Corner{0.5F, 0.5F}}, 1 - pmf);
+    lights.add({Corner{-0.5F, -0.5F}, Corner{0.5F, 0.5F}, Corner{0.5F, -0.5F}}, pmf);
+    return lights;
+}
+
+Lights triangle() {
+    Lights lights;
+    lights.add({Corner{0, 0}, Corner{0, 1}, Corner{1, 0}}, 1);
+    return lights;
+}
+
+struct Estimates {
+    Moments solid_angle, irradiance, square;
+};
+
+Estimates estimate(const Lights& lights, std::array<double, 3> p, std::array<double, 3> n, std::size_t samples) {
+    std::vector<cl_float> place;
+    for (const double c : p) place.push_back(static_cast<cl_float>(c));
+    for (const double c : n) place.push_back(static_cast<cl_float>(c / std::hypot(n[0], n[1], n[2])));
+    const auto out = probe().run<cl_float>(
+        "light_samples", batches, 4 * batches, lights.triangles, lights.materials, lights.lights,
+        static_cast<cl_uint>(lights.lights.size()), place,
+        static_cast<cl_uint>(scaled(samples / batches)));
+    Estimates e;
+    for (std::size_t i = 0; i < batches; ++i) {
+        e.solid_angle.add(out[4 * i]);
+        e.irradiance.add(out[4 * i + 1]);
+        e.square.add(out[4 * i + 2]);
+        EXPECT_LT(out[4 * i + 3], 1e-5F) << "area_light_pdf_w differs from the sample's pdf_w";
+    }
+    return e;
+}
+
+// Lambert's formula for polygons. alpha: false_alarm over 12 means, each finds 0.5 % with probability .99.
+TEST(AreaLight, IrradianceAndSolidAngle) {
+    struct Row {
+        std::array<double, 3> p, n;
+        double irradiance, solid_angle;  // 0: not tabulated
+    };
+    const std::vector<Row> rows{
+        {{0, 0, 0}, {0, 0, 1}, 0.7522746884541075, 0.80543168316132},
+        {{0.5, 0, 0}, {0, 0, 1}, 0.5666451120495073, 0.64350110879328},
+        {{2, 1, 0}, {0, 0, 1}, 0.03023651582530077, 0.07123064673744},
+        {{0, 0, 0}, {1, 0, 1}, 0.5319385335208968, 0.80543168316132},
+        {{0.2, 0.1, 0.3}, {0, 1, 1}, 0.732156927081709, 0}};
+    for (const Row& row : rows) {
+        const Estimates e = estimate(square(0.3F), row.p, row.n, 1U << 21U);
+        EXPECT_TRUE(mean_is(e.irradiance, row.irradiance, 12, 0.005)) << row.p[0] << ", " << row.p[1];
+        EXPECT_TRUE(row.solid_angle == 0 || mean_is(e.solid_angle, row.solid_angle, 12, 0.005))
+            << row.p[0] << ", " << row.p[1];
+    }
+    const Estimates e = estimate(triangle(), {0, 0, 0}, {0, 0, 1}, 1U << 21U);
+    EXPECT_TRUE(mean_is(e.irradiance, 0.3022998940390363, 12, 0.005));
+    EXPECT_TRUE(mean_is(
+        estimate(triangle(), {1, 1, 0}, {0, 0, 1}, 1U << 21U).irradiance, 0.1329099816445153, 12, 0.005));
+}
+
+TEST(AreaLight, BackIsDarkUnlessDoubleSided) {
+    Lights lights = square(0.5F);
+    EXPECT_EQ(estimate(lights, {0, 0, 2}, {0, 0, -1}, batches).irradiance.mean(), 0);
+    lights.materials.front().double_sided = 1;
+    const Estimates e = estimate(lights, {0, 0, 2}, {0, 0, -1}, 1U << 18U);
+    EXPECT_TRUE(mean_is(e.irradiance, 0.7522746884541075, 1));
+}
+
+// Relative variance A int G^2 dA / (int G dA)^2 - 1 of uniform area sampling, by its second moment.
+// alpha: false_alarm over 3; a 10 % change of the variance is found with probability .99.
+TEST(AreaLight, VarianceOfAreaSampling) {
+    struct Row {
+        std::array<double, 3> p;
+        double form_factor, variance;
+    };
+    const std::vector<Row> rows{
+        {{0, 0, 0}, 0.2394564704607735, 0.0303545},
+        {{0.5, 0.5, 0}, 0.1385316059948930, 0.255292},
+        {{0, 0, 0.9}, 0.96833955697404, 10.3151}};
+    for (const Row& row : rows) {
+        const Estimates e = estimate(square(0.5F), row.p, {0, 0, 1}, 1U << 21U);
+        const double mean = pi * row.form_factor;
+        EXPECT_TRUE(mean_is(
+            e.square, (1 + row.variance) * mean * mean, 3, 0.1 * row.variance / (1 + row.variance), 2e-5))
+            << row.p[0] << ", " << row.p[2];
+    }
+}
+
+}  // namespace
+}  // namespace wavepath

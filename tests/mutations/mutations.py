@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""Breaks the kernels on purpose, one way at a time, and asks whether a test notices.
+
+    tests/mutations/mutations.py BUILD/tests/wavepath_tests [NAME ...]
+
+The test program reads its kernels from the folder that WAVEPATH_KERNELS names, so nothing is rebuilt. Prints a table;
+fails if a mutation survives, or if a test fails on kernels that nobody broke.
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+KERNELS = pathlib.Path(__file__).resolve().parents[2] / "kernels"
+
+# name, file, text, its replacement, tests that must notice
+MUTATIONS = [
+    ("missing cosine at the receiver", "materials/lambert.cl",
+     "return max(wi.z, 0.0f) * INV_PI_F;  // f_r cos for albedo 1", "return wi.z > 0.0f ? INV_PI_F : 0.0f;",
+     "Irradiance.OfASquareLightByLightSampling"),
+    ("missing cosine at the light", "sampling/mis.cl",
+     "return pdf_a * distance2 / cos_light;", "return pdf_a * distance2;",
+     "Irradiance.OfASquareLightByLightSampling"),
+    ("light counted twice", "stages/shade_emission.cl",
+     "weight = pdf_w == PDF_CERTAIN ? 1.0f : share;", "weight = 1.0f;",
+     "AreaLight.EmitsBothWaysWhenDoubleSided"),
+    ("light not seen by the camera", "stages/shade_emission.cl",
+     "weight = pdf_w == PDF_CERTAIN ? 1.0f : share;", "weight = share;",
+     "Furnace.StopsAtTheDepthAsked"),
+    ("roulette without 1/q", "stages/roulette_compact.cl",
+     "scale3(throughput, 1.0f / survival)", "throughput",
+     "Furnace.GivesTheGeometricSeries"),
+    ("depth off by one", "stages/sample_indirect.cl",
+     "scattering < params->max_scatterings", "scattering <= params->max_scatterings",
+     "Furnace.StopsAtTheDepthAsked"),
+    ("light samples one scattering too deep", "stages/direct_light.cl",
+     "scattering < params->max_scatterings", "scattering <= params->max_scatterings",
+     "Furnace.StopsAtTheDepthAsked"),
+    ("every light as probable as the others", "lights/area_light.cl",
+     "light->pmf / light->area, distance2", "1.0f / (4.0f * light->area), distance2",
+     "Agreement.OfLightChoices"),
+    ("no light choice in the mis weight", "lights/area_light.cl",
+     "light->pmf / light->area, distance * distance", "1.0f / light->area, distance * distance",
+     "Agreement.OfLightChoices"),
+    ("result x 1.005", "stages/accumulate.cl",
+     "const Vec3 radiance = load3(PLANE(radiances, RADIANCE_R), stride, slot);",
+     "const Vec3 radiance = scale3(load3(PLANE(radiances, RADIANCE_R), stride, slot), 1.005f);",
+     "Furnace.GivesTheGeometricSeries:Irradiance.OfASquareLightByLightSampling"),
+    ("light emits from its back", "geometry/interaction.cl",
+     "r.front || material->double_sided ? 1.0f : 0.0f", "1.0f",
+     "AreaLight.EmitsFromItsFrontOnly"),
+    ("rays start on their surface", "geometry/interaction.cl",
+     "#define RAY_OFFSET 0x1p-20f", "#define RAY_OFFSET 0.0f",
+     "SelfIntersection.*"),
+    ("rays start far off their surface", "geometry/interaction.cl",
+     "#define RAY_OFFSET 0x1p-20f", "#define RAY_OFFSET 1e-4f",
+     "ThinGap.*"),
+    ("plain film sum", "stages/fold_film.cl",
+     "c.lost = (t - c.sum) - y;", "c.lost = 0.0f;",
+     "Film.StaysRightAtAMillionSamples"),
+    ("spot falloff not squared", "lights/punctual.cl",
+     "cone * cone * window", "cone * window",
+     "PunctualLight.SpotFallsOffBetweenItsCones"),
+    ("GGX masking left out of the density", "materials/ggx.cl",
+     "/ (2.0f * (wo.z + ggx_smith_root(wo.z, alpha)))", "/ (4.0f * wo.z)",
+     "MaterialInFurnace.SampledByItsLobes"),
+    ("map sampled without its sine", "lights/environment.cl",
+     "(0.5f * INV_PI_F * INV_PI_F) / sine", "(0.5f * INV_PI_F * INV_PI_F)",
+     "Environment.OneBrightTexelLightsFromItsPlace"),
+]
+
+
+def mutate(folder, file, text, replacement):
+    path = folder / file
+    source = path.read_text()
+    if text not in source:
+        sys.exit(f"{file}: no line '{text}' any more; bring tests/mutations/mutations.py up to date")
+    path.write_text(source.replace(text, replacement))
+
+
+def tests_pass(program, tests, kernels):
+    environment = dict(os.environ, WAVEPATH_KERNELS=str(kernels))
+    run = subprocess.run(
+        [program, f"--gtest_filter={tests}", "--gtest_brief=1"], env=environment, capture_output=True, text=True)
+    if "0 tests" in run.stdout.splitlines()[-1] or "[  PASSED  ] 0 tests" in run.stdout:
+        sys.exit(f"{tests}: no such test")
+    return run.returncode == 0
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    program, wanted = sys.argv[1], sys.argv[2:]
+    mutations = [m for m in MUTATIONS if not wanted or m[0] in wanted]
+    survivors = 0
+    width = max(len(m[0]) for m in mutations)
+    for tests in sorted({m[4] for m in mutations}):
+        if not tests_pass(program, tests, KERNELS):
+            sys.exit(f"{tests}: fails on unbroken kernels")
+    for name, file, text, replacement, tests in mutations:
+        with tempfile.TemporaryDirectory() as folder:
+            kernels = pathlib.Path(folder) / "kernels"
+            shutil.copytree(KERNELS, kernels)
+            mutate(kernels, file, text, replacement)
+            caught = not tests_pass(program, tests, kernels)
+        survivors += not caught
+        print(f"{name:{width}}  {'caught' if caught else 'SURVIVED':8}  {tests}", flush=True)
+    print(f"{len(mutations) - survivors} of {len(mutations)} caught")
+    return survivors > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
