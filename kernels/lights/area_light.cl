@@ -15,13 +15,11 @@ typedef struct {
 
 INLINE LightSample area_light_sample(
     global const float* triangles,
-    global const DeviceMaterial* materials,
     global const DeviceLight* light,
     const Vec3 from,
     const Sample2 u) {
     const int primitive = light->kind == LIGHT_TRIANGLE ? (int)light->primitive : 0;
     global const float* triangle = triangles + TRIANGLE_FLOATS * primitive;
-    global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
     const Sample2 b = sample_triangle(u);
     const Vec3 face = scale3(triangle_cross(triangle), 0.5f / light->area);
     const Vec3 point = interpolate(triangle, TRIANGLE_CORNERS, b.u, b.v);
@@ -32,12 +30,12 @@ INLINE LightSample area_light_sample(
     s.wi = scale3(to_light, 1.0f / sqrt(distance2));
     const float cos_front = -dot3(s.wi, face);
     const float cos_light = fabs(cos_front);
-    const int lit = (material->double_sided ? cos_light : cos_front) > 0.0f;
+    const int lit = (light->double_sided ? cos_light : cos_front) > 0.0f;
     s.pdf_w = pdf_a_to_w(light->pmf / light->area, distance2, cos_light);
     // The connection ends just before the light, on the side it is seen from.
     s.p = leave(point, scale3(face, cos_front > 0.0f ? 1.0f : -1.0f));
     s.radiance = scale3(
-        vec3(material->emission_r, material->emission_g, material->emission_b), lit ? 1.0f / s.pdf_w : 0.0f);
+        vec3(light->intensity_r, light->intensity_g, light->intensity_b), lit ? 1.0f / s.pdf_w : 0.0f);
     return s;
 }
 

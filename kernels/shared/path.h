@@ -76,6 +76,7 @@ enum RadiancePlane {
     RADIANCE_PLANES
 };
 #define SUM_PLANES (RADIANCE_PLANES - SUM_R)
+#define CELL_FLOATS 12  // SUM_PLANES and padding: the sums of one unit, side by side, since units end one by one
 
 // shadows: the pending connection to a light, at most one a slot
 enum ShadowPlane {

@@ -49,8 +49,9 @@ typedef struct {
     shared_float range;            // LIGHT_POINT: [normalised] 0: unlimited
     shared_float spot_scale;       // LIGHT_POINT: falloff = saturate(cos * scale + offset)^2
     shared_float spot_offset;
-    shared_float padding;
-    shared_float intensity_r;      // [W/sr] in units of the normalised scene; directional [W/m^2]
+    shared_uint double_sided;      // LIGHT_TRIANGLE: emits from both faces
+    shared_float intensity_r;      // LIGHT_TRIANGLE: radiance; LIGHT_POINT: [W/sr] in units of the normalised scene;
+                                   // LIGHT_DIRECTIONAL: [W/m^2]
     shared_float position_x;       // [normalised]
     shared_float direction_x;      // the way it shines, unit
     shared_float intensity_g;

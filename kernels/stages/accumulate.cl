@@ -25,22 +25,19 @@ kernel void accumulate(
     if (slot >= slots) return;
     if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
     const Vec3 radiance = load3(PLANE(radiances, RADIANCE_R), stride, slot);
-    const Vec3 sum = add3(load3(PLANE(radiances, SUM_R), stride, slot), radiance);
-    store3(PLANE(radiances, SUM_R), stride, slot, sum);
-
     const uint sample = PLANE(ids, ID_SAMPLE)[slot];
+    const int first = sample == 0;
+    const Vec3 before = load3(PLANE(radiances, SUM_R), stride, slot);
+    store3(PLANE(radiances, SUM_R), stride, slot, select3(first, radiance, add3(before, radiance)));
+
     const int finite = is_finite_bits(radiance.x) & is_finite_bits(radiance.y) & is_finite_bits(radiance.z);
-    const uint flags = PLANE(ids, ID_NONFINITE)[slot];
+    const uint flags = first ? 0 : PLANE(ids, ID_NONFINITE)[slot];
     const uint counted = (flags + 0x10000u) | (flags == 0 ? sample + 1 : 0);
     PLANE(ids, ID_NONFINITE)[slot] = finite ? flags : counted;
 
     if (PLANE(ids, ID_LEFT)[slot] > 0) return;
-    const int cell = (int)PLANE(ids, ID_CELL)[slot];
+    const size_t cell = PLANE(ids, ID_CELL)[slot];
     cell_flags[cell] = finite ? flags : counted;
-    PLANE(ids, ID_NONFINITE)[slot] = 0;
 #pragma unroll
-    for (int k = 0; k < SUM_PLANES; ++k) {
-        cells[k * (int)params.cells + cell] = PLANE(radiances, SUM_R + k)[slot];
-        PLANE(radiances, SUM_R + k)[slot] = 0.0f;
-    }
+    for (int k = 0; k < SUM_PLANES; ++k) cells[cell * CELL_FLOATS + k] = PLANE(radiances, SUM_R + k)[slot];
 }

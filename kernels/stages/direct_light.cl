@@ -49,7 +49,7 @@ kernel void direct_light(
     s.pdf_w = PDF_CERTAIN;
     if (HAS_PUNCTUAL_LIGHTS) s = punctual_sample(light, p);
     if (HAS_AREA_LIGHTS) {
-        const LightSample area = area_light_sample(triangles, materials, light, p, unit_pair(point));
+        const LightSample area = area_light_sample(triangles, light, p, unit_pair(point));
         const int is_area = light->kind == LIGHT_TRIANGLE;
         s.p = select3(is_area, area.p, s.p);
         s.wi = select3(is_area, area.wi, s.wi);

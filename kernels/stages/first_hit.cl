@@ -16,13 +16,19 @@ kernel void first_hit(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) < 0) return;
     if (PLANE(ids, ID_SCATTERING)[slot] != 0) return;
+    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    if (primitive == HIT_IDLE) return;
+    const int hit = primitive >= 0;
+    const float kept = PLANE(ids, ID_SAMPLE)[slot] == 0 ? 0.0f : 1.0f;  // a unit's first sample starts its sums
+    const Vec3 zero = vec3(0.0f, 0.0f, 0.0f);
+    const Vec3 base = select3(hit, load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot), zero);
+    const Vec3 n = select3(hit, load_shading_normal(surfaces, stride, slot), zero);
+    const float depth = hit ? PLANE(hits, HIT_T)[slot] * params.metres : 0.0f;
     global float* albedo = PLANE(radiances, SUM_ALBEDO_R);
     global float* normal = PLANE(radiances, SUM_NORMAL_X);
-    const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
-    store3(albedo, stride, slot, add3(load3(albedo, stride, slot), base));
-    store3(normal, stride, slot, add3(load3(normal, stride, slot), load_shading_normal(surfaces, stride, slot)));
-    PLANE(radiances, SUM_DEPTH)[slot] += PLANE(hits, HIT_T)[slot] * params.metres;
-    PLANE(radiances, SUM_COVERAGE)[slot] += 1.0f;
+    store3(albedo, stride, slot, madd3(base, load3(albedo, stride, slot), kept));
+    store3(normal, stride, slot, madd3(n, load3(normal, stride, slot), kept));
+    PLANE(radiances, SUM_DEPTH)[slot] = fma(PLANE(radiances, SUM_DEPTH)[slot], kept, depth);
+    PLANE(radiances, SUM_COVERAGE)[slot] = fma(PLANE(radiances, SUM_COVERAGE)[slot], kept, hit ? 1.0f : 0.0f);
 }

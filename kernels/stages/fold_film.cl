@@ -42,7 +42,7 @@ kernel void fold_film(
         total.sum = film[(FILM_SUM + k) * pixels + pixel];
         total.lost = film[(FILM_LOST + k) * pixels + pixel];
         for (uint pass = 0; pass < passes; ++pass)
-            total = add_compensated(total, cells[k * params.cells + pass * params.window_pixels + i]);
+            total = add_compensated(total, cells[(pass * params.window_pixels + i) * CELL_FLOATS + k]);
         film[(FILM_SUM + k) * pixels + pixel] = total.sum;
         film[(FILM_LOST + k) * pixels + pixel] = total.lost;
     }
@@ -54,7 +54,7 @@ kernel void fold_film(
         float mean = film[(FILM_MEAN + k) * pixels + pixel];
         float deviation = film[(FILM_DEVIATION + k) * pixels + pixel];
         for (uint pass = 0; pass < passes; ++pass) {
-            batch = add_compensated(batch, cells[k * params.cells + pass * params.window_pixels + i]);
+            batch = add_compensated(batch, cells[(pass * params.window_pixels + i) * CELL_FLOATS + k]);
             if (plan[pass].closes_batch == 0) continue;
             const float n = (float)plan[pass].closes_batch;
             const float batch_mean = (batch.sum - batch.lost) / n;

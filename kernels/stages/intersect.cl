@@ -1,29 +1,53 @@
 // Finds the closest triangle along every ray.
 // reads: rays, bvh    writes: hits
-// One work-item a slot.
+// One work-item for RAYS_PER_ITEM slots.
 
-#include "geometry/bvh.cl"
+#include "geometry/ray_stream.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
 #include "shared/path.h"
 
+INLINE void store_hit(global float* hits, const size_t stride, const size_t slot, const Hit* hit) {
+    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(hit->primitive);
+    PLANE(hits, HIT_T)[slot] = hit->t;
+    PLANE(hits, HIT_U)[slot] = hit->u;
+    PLANE(hits, HIT_V)[slot] = hit->v;
+}
+
 kernel void intersect(
-    constant const RenderParams* restrict settings,
+    constant const RenderParams* restrict params,
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
     global const float* restrict rays,
     global float* restrict hits) {
-    const size_t stride = settings->stride;
-    const size_t slot = get_global_id(0);
+    const size_t stride = params->stride;
+    uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
     if (slot >= slots) return;
-    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return;
-    const Hit hit = closest_hit(
-        nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
-        PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
-        PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY);
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(hit.primitive);
-    PLANE(hits, HIT_T)[slot] = hit.t;
-    PLANE(hits, HIT_U)[slot] = hit.u;
-    PLANE(hits, HIT_V)[slot] = hit.v;
+    if (RAYS_PER_ITEM == 1) {
+        if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return;
+        const Hit hit = closest_hit(
+            nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
+            PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
+            PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY);
+        store_hit(hits, stride, slot, &hit);
+        return;
+    }
+    const uint end = min(slots, slot + RAYS_PER_ITEM);
+    RayStream stream;
+    stream_open(&stream);
+    do {
+        for (; slot < end && stream_has_room(&stream); ++slot) {
+            if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) continue;
+            stream_add(
+                &stream, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
+                PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
+                PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY);
+        }
+        stream_step(&stream, nodes, blocks, 0);
+        for (int k = 0; k < stream.ended; ++k) {
+            const StreamRay* ray = stream_ended(&stream, k);
+            store_hit(hits, stride, ray->item, &ray->hit);
+        }
+    } while (slot < end || stream_busy(&stream));
 }

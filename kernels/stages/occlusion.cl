@@ -1,31 +1,60 @@
 // Traces the pending connections and adds what arrives.
 // reads: shadows, bvh    writes: radiances, fates
-// One work-item a slot.
+// One work-item for RAYS_PER_ITEM slots.
 
-#include "geometry/bvh.cl"
+#include "geometry/ray_stream.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
 #include "shared/path.h"
 #include "shared/queues.h"
 
+INLINE void add_connection(
+    global const float* shadows, global float* radiances, const size_t stride, const size_t slot) {
+    for (int k = 0; k < 3; ++k)
+        PLANE(radiances, RADIANCE_R + k)[slot] += PLANE(shadows, SHADOW_R + k)[slot];
+}
+
 kernel void occlusion(
-    constant const RenderParams* restrict settings,
+    constant const RenderParams* restrict params,
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
     global const float* restrict shadows,
     global float* restrict radiances,
     global uchar* restrict fates) {
-    const size_t stride = settings->stride;
-    const size_t slot = get_global_id(0);
+    const size_t stride = params->stride;
+    uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
     if (slot >= slots) return;
-    const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
-    fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
-    if (t_max <= 0.0f) return;
-    const int blocked = any_hit(
-        nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot], PLANE(shadows, SHADOW_ORIGIN_Y)[slot],
-        PLANE(shadows, SHADOW_ORIGIN_Z)[slot], PLANE(shadows, SHADOW_DIRECTION_X)[slot],
-        PLANE(shadows, SHADOW_DIRECTION_Y)[slot], PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max);
-    if (blocked) return;
-    for (int k = 0; k < 3; ++k) PLANE(radiances, RADIANCE_R + k)[slot] += PLANE(shadows, SHADOW_R + k)[slot];
+    if (RAYS_PER_ITEM == 1) {
+        const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
+        fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+        if (t_max <= 0.0f) return;
+        const int blocked = any_hit(
+            nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
+            PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
+            PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
+            PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max);
+        if (!blocked) add_connection(shadows, radiances, stride, slot);
+        return;
+    }
+    const uint end = min(slots, slot + RAYS_PER_ITEM);
+    RayStream stream;
+    stream_open(&stream);
+    do {
+        for (; slot < end && stream_has_room(&stream); ++slot) {
+            const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
+            fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+            if (t_max <= 0.0f) continue;
+            stream_add(
+                &stream, slot, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
+                PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
+                PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
+                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max);
+        }
+        stream_step(&stream, nodes, blocks, 1);
+        for (int k = 0; k < stream.ended; ++k) {
+            const StreamRay* ray = stream_ended(&stream, k);
+            if (ray->hit.primitive < 0) add_connection(shadows, radiances, stride, ray->item);
+        }
+    } while (slot < end || stream_busy(&stream));
 }

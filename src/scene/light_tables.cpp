@@ -126,6 +126,10 @@ LightTables build_light_tables(
         DeviceLight light{};
         light.kind = LIGHT_TRIANGLE;
         light.primitive = static_cast<cl_uint>(t);
+        light.double_sided = material.double_sided ? 1 : 0;
+        light.intensity_r = material.emission[0];
+        light.intensity_g = material.emission[1];
+        light.intensity_b = material.emission[2];
         light.area = static_cast<float>(triangle_area(geometry.positions, t));
         tables.triangle_lights[t] = static_cast<uint32_t>(tables.lights.size());
         tables.lights.push_back(light);

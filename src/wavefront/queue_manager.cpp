@@ -36,7 +36,7 @@ QueueManager::QueueManager(
       pool_(device, slots, features),
       params_(device, 1, "parameters"),
       plan_(device, max_cells, "sample plan"),
-      cells_(device, std::size_t{SUM_PLANES} * max_cells, "units of work"),
+      cells_(device, std::size_t{CELL_FLOATS} * max_cells, "units of work"),
       cell_flags_(device, max_cells, "units of work"),
       assign_units_(program, "assign_units", groups.streaming, profile),
       generate_rays_(program, "generate_rays", groups.streaming, profile),

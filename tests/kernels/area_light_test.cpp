@@ -23,7 +23,7 @@ const Probe& probe() {
 // place: point, unit normal. Lights lie in the plane z = 1.
 kernel void light_samples(
     const uint count, global float* out, global const float* triangles,
-    global const DeviceMaterial* materials, global const DeviceLight* lights,
+    global const DeviceLight* lights,
     const uint light_count, global const float* place, const uint n) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
@@ -36,7 +36,7 @@ kernel void light_samples(
     for (uint k = 0; k < n; ++k) {
         const Sample2 u = unit_pair(independent_pair(i * n + k, 61));
         const uint chosen = choose_light(lights, light_count, independent_pair(i * n + k, 62).u);
-        const LightSample s = area_light_sample(triangles, materials, lights + chosen, from, u);
+        const LightSample s = area_light_sample(triangles, lights + chosen, from, u);
         const float value = s.radiance.x * max(dot3(s.wi, normal), 0.0f);
         solid_angle += s.radiance.x;
         sum += value;
@@ -59,7 +59,6 @@ using Corner = std::array<float, 2>;  // in the plane z = 1
 // Triangles of radiance 1 that shine down, chosen with the given chances.
 struct Lights {
     std::vector<cl_float> triangles;
-    std::vector<DeviceMaterial> materials = std::vector<DeviceMaterial>(1);
     std::vector<DeviceLight> lights;
 
     void add(const std::array<Corner, 3>& clockwise, float pmf) {
@@ -73,7 +72,7 @@ struct Lights {
         light.alias_threshold = lights.empty() ? 1.0F : 2 * pmf;
         if (!lights.empty()) lights.front().alias_threshold = 1.0F;
         light.alias = 0;
-        materials.front().emission_r = 1;
+        light.intensity_r = 1;
         triangles.insert(
             triangles.end(), {std::bit_cast<float>(0U), std::bit_cast<float>(light.primitive), a[0], a[1], 1,
                               b[0], b[1], 1, c[0], c[1], 1, 0});
@@ -104,7 +103,7 @@ Estimates estimate(const Lights& lights, std::array<double, 3> p, std::array<dou
     for (const double c : p) place.push_back(static_cast<cl_float>(c));
     for (const double c : n) place.push_back(static_cast<cl_float>(c / std::hypot(n[0], n[1], n[2])));
     const auto out = probe().run<cl_float>(
-        "light_samples", batches, 4 * batches, lights.triangles, lights.materials, lights.lights,
+        "light_samples", batches, 4 * batches, lights.triangles, lights.lights,
         static_cast<cl_uint>(lights.lights.size()), place,
         static_cast<cl_uint>(scaled(samples / batches)));
     Estimates e;
@@ -144,7 +143,7 @@ TEST(AreaLight, IrradianceAndSolidAngle) {
 TEST(AreaLight, BackIsDarkUnlessDoubleSided) {
     Lights lights = square(0.5F);
     EXPECT_EQ(estimate(lights, {0, 0, 2}, {0, 0, -1}, batches).irradiance.mean(), 0);
-    lights.materials.front().double_sided = 1;
+    for (DeviceLight& light : lights.lights) light.double_sided = 1;
     const Estimates e = estimate(lights, {0, 0, 2}, {0, 0, -1}, 1U << 18U);
     EXPECT_TRUE(mean_is(e.irradiance, 0.7522746884541075, 1));
 }

@@ -33,37 +33,40 @@ INLINE Bits2 bits_of(const uint i) {
 // the square of the map, by the builtins, not the functions under test
 kernel void directions(
     const uint count, global uint* out, global const EnvironmentEntry* map,
-    constant const RenderParams* params) {
+    constant const RenderParams* settings) {
     const uint i = (uint)get_global_id(0);
+    const RenderParams params = *settings;
     if (i >= count) return;
-    const Vec3 d = environment_sample(map, params, bits_of(i));
+    const Vec3 d = environment_sample(map, &params, bits_of(i));
     grid_count(out, atan2(d.z, d.x) * (0.5f * INV_PI_F) + 0.5f, acos(clamp(d.y, -1.0f, 1.0f)) * INV_PI_F);
 }
 
 // density and radiance towards given directions
 kernel void lookups(
     const uint count, global float* out, global const EnvironmentEntry* map,
-    constant const RenderParams* params, global const float* directions) {
+    constant const RenderParams* settings, global const float* directions) {
     const uint i = (uint)get_global_id(0);
+    const RenderParams params = *settings;
     if (i >= count) return;
     const Vec3 d = load3(directions + 3 * i, 1, 0);
-    out[4 * i] = environment_pdf_w(map, params, d);
-    store3(out + 4 * i + 1, 1, 0, environment_eval(map, params, d));
+    out[4 * i] = environment_pdf_w(map, &params, d);
+    store3(out + 4 * i + 1, 1, 0, environment_eval(map, &params, d));
 }
 
 // mean radiance / density over n samples an item, and how many of them have density 0 or no unit direction
 kernel void fluxes(
     const uint count, global float* out, global const EnvironmentEntry* map,
-    constant const RenderParams* params, const uint n) {
+    constant const RenderParams* settings, const uint n) {
     const uint i = (uint)get_global_id(0);
+    const RenderParams params = *settings;
     if (i >= count) return;
     float sum = 0.0f;
     float bad = 0.0f;
     for (uint k = 0; k < n; ++k) {
-        const Vec3 d = environment_sample(map, params, bits_of(i * n + k));
-        const float pdf_w = environment_pdf_w(map, params, d);
+        const Vec3 d = environment_sample(map, &params, bits_of(i * n + k));
+        const float pdf_w = environment_pdf_w(map, &params, d);
         bad += pdf_w > 0.0f && fabs(dot3(d, d) - 1.0f) < 2e-6f ? 0.0f : 1.0f;
-        sum += environment_eval(map, params, d).x / pdf_w;
+        sum += environment_eval(map, &params, d).x / pdf_w;
     }
     out[2 * i] = sum / (float)n;
     out[2 * i + 1] = bad;

@@ -1,6 +1,7 @@
 // Structs of kernels/shared/ lie in memory alike on both sides of the bus.
 #include "shared/bvh.h"
 #include "shared/params.h"
+#include "shared/queues.h"
 #include "shared/scene.h"
 #include "support/probe.h"
 
@@ -31,7 +32,7 @@ namespace {
     FIELD(DeviceLight, alias_threshold) FIELD(DeviceLight, alias) FIELD(DeviceLight, pmf)      \
     FIELD(DeviceLight, kind) FIELD(DeviceLight, primitive) FIELD(DeviceLight, area)            \
     FIELD(DeviceLight, range) FIELD(DeviceLight, spot_scale) FIELD(DeviceLight, spot_offset)   \
-    FIELD(DeviceLight, padding)                                                                \
+    FIELD(DeviceLight, double_sided)                                                                \
     FIELD(DeviceLight, intensity_r) FIELD(DeviceLight, position_x)                             \
     FIELD(DeviceLight, direction_x)                                                            \
     FIELD(DeviceLight, intensity_g) FIELD(DeviceLight, position_y)                             \
@@ -64,7 +65,9 @@ namespace {
     FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)                    \
     STRUCT(PlanRow)                                                                            \
     FIELD(PlanRow, batch) FIELD(PlanRow, samples_before) FIELD(PlanRow, first_sample)          \
-    FIELD(PlanRow, samples) FIELD(PlanRow, closes_batch) FIELD(PlanRow, padding)
+    FIELD(PlanRow, samples) FIELD(PlanRow, closes_batch) FIELD(PlanRow, padding) \
+    STRUCT(ChunkState)                                                                         \
+    FIELD(ChunkState, active) FIELD(ChunkState, runaway_slot)
 
 // A row of the table as one side sees it: where a field begins, or a struct ends.
 struct Row {
@@ -87,7 +90,7 @@ const std::string device_layout =
 
 TEST(Layout, HostAndDeviceAgree) {
     const Probe probe(
-        {"shared/bvh.h", "shared/params.h", "shared/scene.h"}, device_layout);
+        {"shared/bvh.h", "shared/params.h", "shared/queues.h", "shared/scene.h"}, device_layout);
     const auto places = probe.run<cl_uint>("layout", 1, host_layout.size());
     for (std::size_t k = 0; k < places.size(); ++k)
         EXPECT_EQ(places[k], host_layout[k].place) << host_layout[k].name;

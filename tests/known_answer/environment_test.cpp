@@ -16,24 +16,24 @@ Environment map_of(float value) {
     return {grey(1), width, height, std::vector<float>(std::size_t{3} * width * height, value)};
 }
 
-RenderResult plate_under(const Environment& environment, const Vec3d& normal, const char* method, uint64_t samples) {
+RenderResult plate_under(const Environment& environment, const Vec3d& normal, const char* method) {
     Scene scene = scene_named("plate");
     add_square(scene, lambert(grey(1)), {0, 0, 0}, normal, 1);
     scene.environment = environment;
-    return render_scene(scene, square_settings(method, close_up({0, 0, 0}, normal, 0.1, 0.01), 64, samples));
+    return render_for({}, scene, square_settings(method, close_up({0, 0, 0}, normal, 0.1, 0.01), 16, 256));
 }
 
 TEST(Environment, ConstantLightsAWhitePlateToItsOwnRadiance) {
     for (const char* method : {"path", "bsdf", "direct", "mis"}) {
         SCOPED_TRACE(method);
-        EXPECT_TRUE(has_mean(shared_mean(plate_under(constant_environment(1), {1, 2, 3}, method, 32)), 1));
+        EXPECT_TRUE(has_mean(shared_mean(plate_under(constant_environment(1), {1, 2, 3}, method)), 1));
     }
 }
 
 TEST(Environment, MapOfOnesIsTheConstant) {
     for (const char* method : {"path", "direct", "mis"}) {
         SCOPED_TRACE(method);
-        EXPECT_TRUE(has_mean(shared_mean(plate_under(map_of(1), {1, 2, 3}, method, 64)), 1));
+        EXPECT_TRUE(has_mean(shared_mean(plate_under(map_of(1), {1, 2, 3}, method)), 1));
     }
 }
 
@@ -67,7 +67,7 @@ TEST(Environment, OneBrightTexelLightsFromItsPlace) {
         const double truth = irradiance_of_texel(column, row, 100, normal);
         for (const char* method : {"direct", "mis"}) {
             SCOPED_TRACE(fmt::format("{}, normal ({}, {}, {})", method, normal[0], normal[1], normal[2]));
-            EXPECT_TRUE(has_mean(shared_mean(plate_under(map, normal, method, 64)), truth, {.truth_error = 1e-4}));
+            EXPECT_TRUE(has_mean(shared_mean(plate_under(map, normal, method)), truth, {.truth_error = 1e-4}));
         }
     }
 }
@@ -75,7 +75,7 @@ TEST(Environment, OneBrightTexelLightsFromItsPlace) {
 TEST(Environment, ScaleMultipliesTheMap) {
     Environment map = map_of(0.5F);
     map.radiance = {1, 2, 4};
-    const RenderResult result = plate_under(map, {0, 1, 0}, "mis", 64);
+    const RenderResult result = plate_under(map, {0, 1, 0}, "mis");
     EXPECT_TRUE(has_mean(shared_mean(result, "R"), 0.5));
     EXPECT_TRUE(has_mean(shared_mean(result, "G"), 1));
     EXPECT_TRUE(has_mean(shared_mean(result, "B"), 2));

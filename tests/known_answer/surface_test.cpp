@@ -28,9 +28,8 @@ TEST(AreaLight, EmitsBothWaysWhenDoubleSided) {
     for (const Vec3d& normal : {Vec3d{0, 0, 1}, Vec3d{0, 0, -1}}) {
         for (const char* method : {"bsdf", "direct", "mis"}) {
             SCOPED_TRACE(method);
-            const uint64_t samples = std::string(method) == "bsdf" ? 128 : 16;
             const RenderResult result =
-                render_scene(floor_and_light(normal, true), square_settings(method, at_origin, 64, samples));
+                render_for({}, floor_and_light(normal, true), square_settings(method, at_origin, 16, 256));
             EXPECT_TRUE(has_mean(shared_mean(result), below_centre, {.truth_error = 1e-5}));
         }
     }
@@ -42,7 +41,7 @@ TEST(AreaLight, KeepsItsFrontUnderAMirroringNode) {
                                   Matrix4{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}) {
         Scene scene = floor_and_light({0, 0, -1}, false);
         scene.instances[1].to_world = mirror;
-        const RenderResult result = render_scene(scene, square_settings("mis", at_origin, 64, 16));
+        const RenderResult result = render_for({}, scene, square_settings("mis", at_origin, 16, 256));
         EXPECT_TRUE(has_mean(shared_mean(result), below_centre, {.truth_error = 1e-5}));
     }
 }

@@ -56,6 +56,21 @@ RenderResult render_scene(const Scene& scene, const RenderSettings& settings) {
     return result;
 }
 
+RenderResult render_for(
+    const Strictness& strictness, const Scene& scene, RenderSettings settings, const std::string& channel) {
+    RenderResult pilot = render_scene(scene, settings);
+    const Estimate e = image_mean(pilot, channel);
+    // a tenth more, for what the pilot does not know of its own error
+    const double found = 1.1 * (critical_t(e.degrees, strictness) + power_z) * e.error / e.mean;
+    if (found <= strictness.bias) return pilot;
+    const double factor = std::pow(found / strictness.bias, 2);
+    const auto samples = static_cast<double>(settings.samples) * factor;
+    EXPECT_LT(samples * settings.width * settings.height, 2e7) << scene.name << ": too noisy for a test";
+    settings.samples = static_cast<uint64_t>(std::ceil(samples / 16)) * 16;  // whole batches
+    settings.seed += 1000;
+    return render_scene(scene, settings);
+}
+
 Estimate estimate_of(const std::vector<double>& values) {
     Moments moments;
     for (const double x : values) moments.add(x);

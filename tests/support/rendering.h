@@ -25,6 +25,16 @@ RenderSettings square_settings(
 
 RenderResult render_scene(const Scene& scene, const RenderSettings& settings);
 
+struct Strictness {
+    double bias = 0.005;     // relative: what the test has to catch with probability .99
+    std::size_t tests = 1;   // simultaneous ones
+    double truth_error = 0;  // relative error of the truth itself: tessellation, table digits
+};
+
+// A pilot of settings.samples says how many samples the test needs; a second render, with another seed, takes them.
+RenderResult render_for(
+    const Strictness& strictness, const Scene& scene, RenderSettings settings, const std::string& channel = "R");
+
 // A mean with its standard error, and the degrees of freedom the error rests on.
 struct Estimate {
     double mean = 0, error = 0, degrees = 0;
@@ -44,12 +54,6 @@ std::vector<Estimate> block_means(const RenderResult& result, const std::string&
 
 // Variance of one sample, from an image of one independent sample a pixel, and the variance's standard error.
 Estimate sample_variance(const RenderResult& result, const std::string& channel = "R");
-
-struct Strictness {
-    double bias = 0.005;     // relative: what the test has to catch with probability .99
-    std::size_t tests = 1;   // simultaneous ones
-    double truth_error = 0;  // relative error of the truth itself: tessellation, table digits
-};
 
 // |mean - truth| within chance, and few enough samples not to be the reason.
 testing::AssertionResult has_mean(const Estimate& e, double truth, const Strictness& strictness = {});

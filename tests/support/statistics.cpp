@@ -15,7 +15,7 @@ namespace {
 constexpr double power_quantile = 2.3263478740408408;  // normal, .99
 
 // Share of samples allowed where nothing is expected.
-constexpr double missed_share = 1e-6;
+constexpr double missed_share = 5e-6;
 
 // Smallest x in [0, infinity) with tail(x) <= p, for a falling tail.
 template <typename Tail>

@@ -51,7 +51,7 @@ testing::AssertionResult mean_is(
     double tolerance = 4e-6);
 
 // Pearson's test of counts against expected counts. Cells are pooled by rising expectation until each holds 5 or more;
-// counts where nothing is expected fail at once, but for a share of 1e-6: quadrature misses corners of cells.
+// counts where nothing is expected fail at once, but for a share of 5e-6: quadrature misses corners of cells.
 testing::AssertionResult counts_follow(
     const std::vector<uint32_t>& counts,
     const std::vector<double>& expected,
