@@ -47,7 +47,7 @@ INLINE float environment_pdf_w(
     const int column = min((int)((atan2_turns(d.z, d.x) + 0.5f) * (float)width), width - 1);
     const int row = min((int)(acos_half_turns(d.y) * (float)height), height - 1);
     const float pmf = map[row].pmf * map[height + row * width + column].pmf;
-    const float sine = sqrt(max(1.0f - d.y * d.y, 1e-12f));
+    const float sine = max(sqrt(fma(d.x, d.x, d.z * d.z)), 1e-6f);
     return pmf * (float)width * (float)height * (0.5f * INV_PI_F * INV_PI_F) / sine;
 }
 

@@ -104,25 +104,29 @@ enum IdPlane {
     ID_INDEX,       // of the sample within its batch, bits reversed
     ID_SCATTERING,  // scatterings so far
     ID_NONFINITE,   // of the unit: count << 16 | first such sample + 1
-    ID_BRANCH,      // which child of its branch vertices this is; 0 without --splits
+    ID_BRANCH,      // which child of its branch vertices this is (only with --splits, as are the next)
+    ID_STACK,       // branch vertices on the path's stack
     ID_PLANES
 };
+#define ID_PLANES_UNSPLIT ID_BRANCH
 
-// branches: a stack of branch vertices a slot, BRANCH_PLANES planes a level (only with --splits)
+// branches: a stack of branch vertices a slot, BRANCH_PLANES planes a level; level = scatterings before the vertex
+// (only with --splits)
 enum BranchPlane {
-    BRANCH_LEFT,  // children still to run (uint bits)
-    BRANCH_ID,    // ID_BRANCH at the vertex (uint bits)
-    BRANCH_PRIMITIVE,
+    BRANCH_LEFT,       // (uint bits) children still to run
+    BRANCH_ID,         // (uint bits) ID_BRANCH at the vertex
+    BRANCH_PRIMITIVE,  // what was hit
     BRANCH_U,
     BRANCH_V,
-    BRANCH_DIRECTION_X,
+    BRANCH_DIRECTION_X,  // of the ray that hit it
     BRANCH_DIRECTION_Y,
     BRANCH_DIRECTION_Z,
-    BRANCH_R,  // throughput at the vertex, divided by the number of children
+    BRANCH_R,  // throughput of a child, before its direction
     BRANCH_G,
     BRANCH_B,
-    BRANCH_SCATTERING,  // (uint bits)
     BRANCH_PLANES
 };
+// In HIT_T: the hit is that of a branch vertex, to be left in another direction; it has been shaded before.
+#define T_RESUMED (-1.0f)
 
 #endif

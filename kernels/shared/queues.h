@@ -12,15 +12,19 @@
 #define FATE_ENDED 2u      // its path is over
 #define FATE_CONNECTED 4u  // it traced a connection to a light
 
+#define FATE_RESUMED 8u    // it goes on at a branch vertex: no ray to trace (written by resume_branch)
+
 #define DEPTH_BINS 16                // path lengths counted apart: 0 .. 14 scatterings, and longer
 #define STATISTICS (DEPTH_BINS + 1)  // and connections traced
 
 // What the host reads after every iteration, one a chunk.
 typedef struct {
-    shared_uint active;        // slots with work
+    shared_uint active;        // slots with work,
+    shared_uint resumed;       // of which these need no ray
     shared_uint runaway_slot;  // of a path that passed MAX_SCATTERINGS, + 1; 0: none
+    shared_uint padding;
 } ChunkState;
-SHARED_SIZE(ChunkState, 8);
+SHARED_SIZE(ChunkState, 16);
 
 // A path this long stops the run with an error: cutting it silently would be bias.
 #define MAX_SCATTERINGS 1000000u

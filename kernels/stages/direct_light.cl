@@ -29,6 +29,7 @@ kernel void direct_light(
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
     PLANE(shadows, SHADOW_T_MAX)[slot] = 0.0f;
     if (primitive < 0) return;
+    if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
     const Vec3 p = load3(PLANE(surfaces, SURFACE_X), stride, slot);
     const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
     const Vec3 n = load_shading_normal(surfaces, stride, slot);

@@ -57,7 +57,11 @@ kernel void generate_rays(
     PLANE(ids, ID_SEED)[slot] = seed;
     PLANE(ids, ID_INDEX)[slot] = index;
     PLANE(ids, ID_SCATTERING)[slot] = 0;
-    if (HAS_SPLITS) PLANE(ids, ID_BRANCH)[slot] = 0;
+    if (HAS_SPLITS) {
+        PLANE(ids, ID_BRANCH)[slot] = 0;
+        PLANE(ids, ID_STACK)[slot] = 0;
+        PLANE(hits, HIT_T)[slot] = 0.0f;
+    }
 
     // the ray through a point of the pixel, uniform: one box filter
     const Sample2 jitter = unit_pair(dimension_pair(seed, index, PAIR_PIXEL, 1));

@@ -4,6 +4,7 @@
 
 #include "geometry/ray_stream.cl"
 #include "sampling/vector.cl"
+#include "shared/features.h"
 #include "shared/params.h"
 #include "shared/path.h"
 
@@ -26,6 +27,7 @@ kernel void intersect(
     if (slot >= slots) return;
     if (RAYS_PER_ITEM == 1) {
         if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return;
+    if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
         const Hit hit = closest_hit(
             nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
             PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],

@@ -28,9 +28,9 @@ kernel void move_paths(
     for (int k = 0; k < HIT_PLANES; ++k) PLANE(hits, k)[to] = PLANE(hits, k)[from];
     for (int k = 0; k < THROUGHPUT_PLANES; ++k) PLANE(throughputs, k)[to] = PLANE(throughputs, k)[from];
     for (int k = 0; k < RADIANCE_PLANES; ++k) PLANE(radiances, k)[to] = PLANE(radiances, k)[from];
-    for (int k = 0; k < ID_PLANES; ++k) PLANE(ids, k)[to] = PLANE(ids, k)[from];
-    if (HAS_SPLITS)
-        for (int k = 0; k < BRANCH_PLANES * (int)params.split_depth; ++k)
-            PLANE(branches, k)[to] = PLANE(branches, k)[from];
+    const int id_planes = HAS_SPLITS ? ID_PLANES : ID_PLANES_UNSPLIT;
+    for (int k = 0; k < id_planes; ++k) PLANE(ids, k)[to] = PLANE(ids, k)[from];
+    const int branch_planes = HAS_SPLITS ? BRANCH_PLANES * (int)params.split_depth : 0;
+    for (int k = 0; k < branch_planes; ++k) PLANE(branches, k)[to] = PLANE(branches, k)[from];
     PLANE(hits, HIT_PRIMITIVE)[from] = as_float(HIT_IDLE);
 }

@@ -29,7 +29,10 @@ kernel void roulette_compact(
 
     // q: constant, or what the path still carries; never above 1
     float survival = 1.0f;
-    survival = params.roulette == 1 ? min(1.0f, max_component3(throughput)) : survival;
+    float shares = 1.0f;  // a child carries the S-th part of its parent, which says nothing about its worth
+    if (HAS_SPLITS)
+        for (uint k = 0; k < min(scattering, params.split_depth); ++k) shares *= (float)params.splits;
+    survival = params.roulette == 1 ? min(1.0f, max_component3(throughput) * shares) : survival;
     survival = params.roulette == 2 ? params.survival : survival;
     const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
     const uint dimension = PAIR_FIRST + scattering * SCATTERING_PAIRS + PAIR_ROULETTE;

@@ -1,5 +1,5 @@
 // Continues every path at a surface in a direction of its bsdf (notes 3 and 5, indirectRadianceEstimator), or ends it.
-// reads: surfaces, materials    writes: rays, hits (the end), throughputs, ids
+// reads: surfaces, materials    writes: rays, hits (the end), throughputs, ids, branches
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
@@ -14,7 +14,8 @@ kernel void sample_indirect(
     global float* restrict rays,
     global float* restrict hits,
     global float* restrict throughputs,
-    global uint* restrict ids) {
+    global uint* restrict ids,
+    global float* restrict branches) {
     const RenderParams params = *settings;
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
@@ -28,7 +29,30 @@ kernel void sample_indirect(
     const uint seed = PLANE(ids, ID_SEED)[slot];
     const uint index = PLANE(ids, ID_INDEX)[slot];
     const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
-    const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
+    Vec3 carried = load3(PLANE(throughputs, THROUGHPUT_R), stride, slot);
+    uint branch = 0;
+    if (HAS_SPLITS && scattering < params.split_depth) {
+        global float* vertex = PLANE(branches, scattering * BRANCH_PLANES);
+        uint left = as_uint(PLANE(vertex, BRANCH_LEFT)[slot]);
+        const uint parent = PLANE(ids, ID_BRANCH)[slot];
+        if (PLANE(hits, HIT_T)[slot] != T_RESUMED) {
+            left = params.splits;
+            carried = scale3(carried, 1.0f / (float)params.splits);
+            PLANE(vertex, BRANCH_ID)[slot] = as_float(parent);
+            PLANE(vertex, BRANCH_PRIMITIVE)[slot] = as_float(primitive);
+            PLANE(vertex, BRANCH_U)[slot] = PLANE(hits, HIT_U)[slot];
+            PLANE(vertex, BRANCH_V)[slot] = PLANE(hits, HIT_V)[slot];
+            store3(PLANE(vertex, BRANCH_DIRECTION_X), stride, slot, direction);
+            store3(PLANE(vertex, BRANCH_R), stride, slot, carried);
+            PLANE(ids, ID_STACK)[slot] = scattering + 1;
+        }
+        PLANE(vertex, BRANCH_LEFT)[slot] = as_float(left - 1);
+        branch = parent * params.splits + left;  // its own for every child: 1 .. S of parent 0
+        PLANE(ids, ID_BRANCH)[slot] = branch;
+        PLANE(hits, HIT_T)[slot] = 0.0f;
+    } else if (HAS_SPLITS) {
+        branch = PLANE(ids, ID_BRANCH)[slot];
+    }
     const Sample2 u = unit_pair(scattering_pair(seed, index, branch, scattering, PAIR_DIRECTION));
     float choice = 0.0f;
     if (HAS_SPECULAR) choice = unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
@@ -36,7 +60,7 @@ kernel void sample_indirect(
     const Frame frame = frame_around(n);
     const BsdfSample s = gltf_sample(load_surface(materials, surfaces, stride, slot), to_local(frame, scale3(direction, -1.0f)), u, choice);
     const Vec3 wi = to_world(frame, s.wi);
-    const Vec3 throughput = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.weight);
+    const Vec3 throughput = mul3(carried, s.weight);
     // A direction on the far side of the face would leak light through it: it counts as absorbed.
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= s.wi.z > 0.0f ? 1.0f : 0.0f;

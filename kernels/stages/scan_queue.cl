@@ -21,12 +21,14 @@ kernel void scan_queue(
     const uint last = min(first + QUEUE_CHUNK, slots);
     global uint* row = statistics + chunk * STATISTICS;
     uint active = 0;
+    uint resumed = 0;
     uint connections = 0;
     uint runaway_slot = 0;
     for (uint slot = first; slot < last; ++slot) {
         const uint fate = fates[slot];
         active += fate & FATE_ACTIVE;
-        connections += fate / FATE_CONNECTED;
+        connections += (fate & FATE_CONNECTED) / FATE_CONNECTED;
+        resumed += (fate & FATE_RESUMED) / FATE_RESUMED;
         if (!(fate & FATE_ENDED)) continue;
         const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
         row[min(scattering, DEPTH_BINS - 1u)] += 1;
@@ -34,5 +36,6 @@ kernel void scan_queue(
     }
     row[DEPTH_BINS] += connections;
     chunks[chunk].active = active;
+    chunks[chunk].resumed = resumed;
     chunks[chunk].runaway_slot = runaway_slot;
 }

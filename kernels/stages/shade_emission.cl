@@ -20,6 +20,7 @@ kernel void shade_emission(
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) < 0) return;
+    if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
     const uint row = as_uint(PLANE(surfaces, SURFACE_LIGHT)[slot]);
     if (row == NO_LIGHT) return;
     global const DeviceMaterial* material = materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);

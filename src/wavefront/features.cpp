@@ -17,7 +17,7 @@ std::string Features::defines() const {
     define("HAS_PUNCTUAL_LIGHTS", punctual_lights);
     define("HAS_ENVIRONMENT", environment);
     define("HAS_ENVIRONMENT_MAP", environment_map);
-    define("HAS_SPLITS", splits);
+    define("HAS_SPLITS", split_levels > 0);
     define("SAMPLE_LIGHTS", sample_lights);
     define("SAMPLE_LOBES", sample_lobes);
     define("WEIGH_BOTH", weigh_both);
@@ -26,7 +26,7 @@ std::string Features::defines() const {
 }
 
 Features features_of(
-    const Scene& scene, const NormalisedScene& geometry, const LightTables& lights, const Method& method, uint32_t splits, bool sobol) {
+    const Scene& scene, const NormalisedScene& geometry, const LightTables& lights, const Method& method, uint32_t split_levels, bool sobol) {
     Features f;
     f.vertex_normals = !geometry.normals.empty();
     f.vertex_colors = !geometry.colors.empty();
@@ -35,7 +35,7 @@ Features features_of(
     f.punctual_lights = !geometry.lights.empty();
     f.environment = scene.environment.has_value();
     f.environment_map = f.environment && scene.environment->width > 0;
-    f.splits = splits > 1;
+    f.split_levels = split_levels;
     f.sample_lights = method.sample_lights && !lights.lights.empty();
     f.sample_lobes = method.sample_lobes;
     f.weigh_both = method.weigh_both;

@@ -18,7 +18,7 @@ struct Features {
     bool punctual_lights = false;
     bool environment = false;
     bool environment_map = false;
-    bool splits = false;
+    uint32_t split_levels = 0;  // vertices that branch
     bool sample_lights = false;
     bool sample_lobes = false;
     bool weigh_both = false;
@@ -29,6 +29,6 @@ struct Features {
 };
 
 Features features_of(
-    const Scene& scene, const NormalisedScene& geometry, const LightTables& lights, const Method& method, uint32_t splits, bool sobol);
+    const Scene& scene, const NormalisedScene& geometry, const LightTables& lights, const Method& method, uint32_t split_levels, bool sobol);
 
 }  // namespace wavepath

@@ -22,6 +22,7 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
     if (features.area_lights) names.emplace_back("shade_emission");
     if (features.sample_lights) names.insert(names.end(), {"direct_light", "occlusion"});
     names.insert(names.end(), {"sample_indirect", "roulette_compact", "scan_queue", "accumulate", "fold_film"});
+    if (features.split_levels > 0) names.emplace_back("resume_branch");
     for (std::string& name : names) name = "stages/" + name + ".cl";
     return names;
 }
@@ -51,6 +52,8 @@ QueueManager::QueueManager(
       occlusion_(stage_if<decltype(occlusion_)::value_type>(features.sample_lights, program, "occlusion", groups.traversal, profile)),
       sample_indirect_(program, "sample_indirect", groups.streaming, profile),
       roulette_compact_(program, "roulette_compact", groups.streaming, profile),
+      resume_branch_(
+          stage_if<decltype(resume_branch_)::value_type>(features.split_levels > 0, program, "resume_branch", groups.streaming, profile)),
       scan_queue_(program, "scan_queue", groups.traversal, profile),
       scatter_queue_(program, "scatter_queue", groups.traversal, profile),
       move_paths_(program, "move_paths", groups.traversal, profile),
@@ -60,12 +63,12 @@ QueueManager::QueueManager(
 void QueueManager::render(const Window& window, RenderParams params, Film& film) {
     start(window, params);
     uint32_t slots = std::min(pool_.slots, static_cast<uint32_t>(window.pixels * window.rows.size()));
-    uint32_t active = slots;
+    Work work{slots, 0};
     assign_units_.launch(device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.radiances);
-    while (active > 0) {
+    while (work.active > 0) {
         generate_rays_.launch(device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays, pool_.throughputs, pool_.radiances);
         intersect_.launch(device_, slots, params_, slots, scene_.nodes, scene_.blocks, pool_.rays, pool_.hits);
-        if (active <= slots / 2) slots = compact(slots, active);
+        if (work.active <= slots / 2) slots = compact(slots, work.active);
         interact_.launch(device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays, pool_.hits, pool_.surfaces);
         first_hit_.launch(device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
         if (shade_miss_)
@@ -76,11 +79,13 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
             direct_light_->launch(device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights, scene_.environment, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs, pool_.ids, pool_.shadows);
             occlusion_->launch(device_, slots, params_, slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
         }
-        sample_indirect_.launch(device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids);
+        sample_indirect_.launch(device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids, pool_.branches);
         roulette_compact_.launch(device_, slots, params_, slots, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
+        if (resume_branch_)
+            resume_branch_->launch(device_, slots, params_, slots, pool_.branches, pool_.hits, pool_.rays, pool_.throughputs, pool_.ids, pool_.fates);
         accumulate_.launch(device_, slots, params_, slots, pool_.hits, pool_.radiances, pool_.ids, cells_, cell_flags_);
-        closest_rays_ += active;
-        active = count_active(slots, window);
+        closest_rays_ += work.active - work.resumed;
+        work = count_work(slots, window);
         ++iterations_;
     }
     fold_film_.launch(device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
@@ -100,18 +105,19 @@ void QueueManager::start(const Window& window, RenderParams params) {
     device_.queue.enqueueWriteBuffer(plan_.buffer(), CL_TRUE, 0, window.rows.size() * sizeof(PlanRow), window.rows.data());
 }
 
-uint32_t QueueManager::count_active(uint32_t slots, const Window& window) {
+QueueManager::Work QueueManager::count_work(uint32_t slots, const Window& window) {
     chunk_states_.resize((slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK);
     scan_queue_.launch(device_, chunk_states_.size(), params_, slots, pool_.fates, pool_.ids, pool_.chunk_states, pool_.statistics);
     device_.queue.enqueueReadBuffer(
         pool_.chunk_states.buffer(), CL_TRUE, 0, chunk_states_.size() * sizeof(ChunkState), chunk_states_.data());
     profile_.collect();
-    uint32_t active = 0;
+    Work work;
     for (const ChunkState& chunk : chunk_states_) {
-        active += chunk.active;
+        work.active += chunk.active;
+        work.resumed += chunk.resumed;
         if (chunk.runaway_slot != 0) report_runaway(chunk.runaway_slot - 1, window);
     }
-    return active;
+    return work;
 }
 
 uint32_t QueueManager::compact(uint32_t slots, uint32_t active) {

@@ -66,8 +66,13 @@ class QueueManager {
     using Chunks = Array<ChunkState>;
 
     void start(const Window& window, RenderParams params);
-    // Reads back what scan_queue counted; returns the slots with work.
-    uint32_t count_active(uint32_t slots, const Window& window);
+    struct Work {
+        uint32_t active = 0;   // slots with work,
+        uint32_t resumed = 0;  // of which these need no ray
+    };
+
+    // Reads back what scan_queue counted.
+    Work count_work(uint32_t slots, const Window& window);
     // Moves the live paths of `slots` slots together; returns how many slots they take.
     uint32_t compact(uint32_t slots, uint32_t active);
     [[noreturn]] void report_runaway(uint32_t slot, const Window& window) const;
@@ -94,8 +99,9 @@ class QueueManager {
     std::optional<Stage<Params, cl_uint, Materials, Lights, Floats, Floats, Floats, Floats, Floats>> shade_emission_;
     std::optional<Stage<Params, cl_uint, Floats, Materials, Lights, Map, Floats, Floats, Floats, Floats, Uints, Floats>> direct_light_;
     std::optional<Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Fates>> occlusion_;
-    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints> sample_indirect_;
+    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats> sample_indirect_;
     Stage<Params, cl_uint, Uints, Floats, Floats, Fates> roulette_compact_;
+    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Fates>> resume_branch_;
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
     Stage<Params, cl_uint, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats> move_paths_;

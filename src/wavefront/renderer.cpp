@@ -110,7 +110,7 @@ RenderResult render(
     const NormalisedScene geometry = normalise(scene);
     const LightTables tables = build_light_tables(scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
     check_lights(scene, geometry, tables, settings.method, result);
-    const Features features = features_of(scene, geometry, tables, settings.method, settings.splits, settings.sobol);
+    const Features features = features_of(scene, geometry, tables, settings.method, settings.splits > 1 ? settings.split_depth : 0, settings.sobol);
     result.times.normalise = watch.lap();
     const Bvh bvh = build_bvh(geometry.positions);
     result.times.bvh_build = watch.lap();

@@ -18,7 +18,8 @@ using std::numbers::pi;
 constexpr std::size_t batches = 512;
 
 const Probe& probe() {
-    static const Probe instance({"lights/area_light.cl"}, R"(
+    static const Probe instance(
+        {"lights/area_light.cl"}, R"(
 // Over n samples an item: means of 1 / pdf_w [sr], of L cos / pdf_w and of its square; worst error of area_light_pdf_w.
 // place: point, unit normal. Lights lie in the plane z = 1.
 kernel void light_samples(
@@ -50,7 +51,8 @@ kernel void light_samples(
     out[4 * i + 2] = squares / (float)n;
     out[4 * i + 3] = worst;
 }
-)", "#define HAS_VERTEX_NORMALS 0\n#define HAS_VERTEX_COLORS 0\n");
+)",
+        "#define HAS_VERTEX_NORMALS 0\n#define HAS_VERTEX_COLORS 0\n");
     return instance;
 }
 
@@ -74,8 +76,8 @@ struct Lights {
         light.alias = 0;
         light.intensity_r = 1;
         triangles.insert(
-            triangles.end(), {std::bit_cast<float>(0U), std::bit_cast<float>(light.primitive), a[0], a[1], 1,
-                              b[0], b[1], 1, c[0], c[1], 1, 0});
+            triangles.end(), {std::bit_cast<float>(0U), std::bit_cast<float>(light.primitive), a[0],
+                              a[1], 1, b[0], b[1], 1, c[0], c[1], 1, 0});
         lights.push_back(light);
     }
 };
@@ -98,10 +100,12 @@ struct Estimates {
     Moments solid_angle, irradiance, square;
 };
 
-Estimates estimate(const Lights& lights, std::array<double, 3> p, std::array<double, 3> n, std::size_t samples) {
+Estimates estimate(
+    const Lights& lights, std::array<double, 3> p, std::array<double, 3> n, std::size_t samples) {
     std::vector<cl_float> place;
     for (const double c : p) place.push_back(static_cast<cl_float>(c));
-    for (const double c : n) place.push_back(static_cast<cl_float>(c / std::hypot(n[0], n[1], n[2])));
+    for (const double c : n)
+        place.push_back(static_cast<cl_float>(c / std::hypot(n[0], n[1], n[2])));
     const auto out = probe().run<cl_float>(
         "light_samples", batches, 4 * batches, lights.triangles, lights.lights,
         static_cast<cl_uint>(lights.lights.size()), place,
@@ -116,7 +120,8 @@ Estimates estimate(const Lights& lights, std::array<double, 3> p, std::array<dou
     return e;
 }
 
-// Lambert's formula for polygons. alpha: false_alarm over 12 means, each finds 0.5 % with probability .99.
+// Lambert's formula for polygons. alpha: false_alarm over 12 means, each finds 0.5 % with
+// probability .99.
 TEST(AreaLight, IrradianceAndSolidAngle) {
     struct Row {
         std::array<double, 3> p, n;
@@ -130,14 +135,16 @@ TEST(AreaLight, IrradianceAndSolidAngle) {
         {{0.2, 0.1, 0.3}, {0, 1, 1}, 0.732156927081709, 0}};
     for (const Row& row : rows) {
         const Estimates e = estimate(square(0.3F), row.p, row.n, 1U << 21U);
-        EXPECT_TRUE(mean_is(e.irradiance, row.irradiance, 12, 0.005)) << row.p[0] << ", " << row.p[1];
+        EXPECT_TRUE(mean_is(e.irradiance, row.irradiance, 12, 0.005))
+            << row.p[0] << ", " << row.p[1];
         EXPECT_TRUE(row.solid_angle == 0 || mean_is(e.solid_angle, row.solid_angle, 12, 0.005))
             << row.p[0] << ", " << row.p[1];
     }
     const Estimates e = estimate(triangle(), {0, 0, 0}, {0, 0, 1}, 1U << 21U);
     EXPECT_TRUE(mean_is(e.irradiance, 0.3022998940390363, 12, 0.005));
     EXPECT_TRUE(mean_is(
-        estimate(triangle(), {1, 1, 0}, {0, 0, 1}, 1U << 21U).irradiance, 0.1329099816445153, 12, 0.005));
+        estimate(triangle(), {1, 1, 0}, {0, 0, 1}, 1U << 21U).irradiance, 0.1329099816445153, 12,
+        0.005));
 }
 
 TEST(AreaLight, BackIsDarkUnlessDoubleSided) {
@@ -163,7 +170,8 @@ TEST(AreaLight, VarianceOfAreaSampling) {
         const Estimates e = estimate(square(0.5F), row.p, {0, 0, 1}, 1U << 21U);
         const double mean = pi * row.form_factor;
         EXPECT_TRUE(mean_is(
-            e.square, (1 + row.variance) * mean * mean, 3, 0.1 * row.variance / (1 + row.variance), 2e-5))
+            e.square, (1 + row.variance) * mean * mean, 3, 0.1 * row.variance / (1 + row.variance),
+            2e-5))
             << row.p[0] << ", " << row.p[2];
     }
 }

@@ -115,7 +115,8 @@ struct Lobe {
     float alpha, mu;
 };
 
-// Density of the visible normals in the coordinates of kernel `normals`, times 4 wo.m for that of half-vectors.
+// Density of the visible normals in the coordinates of kernel `normals`, times 4 wo.m for that of
+// half-vectors.
 std::vector<double> normal_densities(const Lobe& lobe) {
     std::vector<cl_float> normals;
     std::vector<double> factors;
@@ -154,11 +155,12 @@ TEST(Ggx, HalfVectorsFollowTheirDensity) {
     }
 }
 
-// By quadrature of the density [Heitz 2018, eq. 3]; alpha: false_alarm over 32 means, 1 % found with probability .99.
+// By quadrature of the density [Heitz 2018, eq. 3]; alpha: false_alarm over 32 means, 1 % found
+// with probability .99.
 TEST(Ggx, MomentsOfVisibleNormals) {
     struct Row {
         float alpha, mu;
-        std::size_t samples;           // of each of 1024 batches; E m.x may be small against its spread
+        std::size_t samples;  // of each of 1024 batches; E m.x may be small against its spread
         std::array<double, 4> truths;  // E m.x, m.z, m.z^2, wo.m
     };
     const std::vector<Row> rows{
@@ -203,8 +205,8 @@ Weights weights(float alpha, float mu, bool by_cosine, std::size_t samples) {
     return result;
 }
 
-// F = 1, by two quadratures that agree to 2e-6 (alpha = .01: 5e-6; .001: E = 1 - O(alpha^2)). alpha: false_alarm over
-// 44 means, a bias of 0.5 % found with probability .99.
+// F = 1, by two quadratures that agree to 2e-6 (alpha = .01: 5e-6; .001: E = 1 - O(alpha^2)).
+// alpha: false_alarm over 44 means, a bias of 0.5 % found with probability .99.
 TEST(Ggx, DirectionalAlbedo) {
     struct Row {
         float alpha;
@@ -228,24 +230,25 @@ TEST(Ggx, DirectionalAlbedo) {
             EXPECT_LE(w.largest, 1 + 2e-6F) << "alpha " << row.alpha << ", mu " << mus[k];
         }
     for (const float mu : {1.0F, 0.5F})
-        EXPECT_TRUE(mean_is(weights(0.001F, mu, false, 1U << 17U).weight, 1, comparisons, 0.005, 6e-6));
+        EXPECT_TRUE(
+            mean_is(weights(0.001F, mu, false, 1U << 17U).weight, 1, comparisons, 0.005, 6e-6));
 }
 
-// Relative variance of the weight, F = 1: how good the sampling is. The second moment is tested, where four moments are
-// known to exist and its error is small: alpha false_alarm over 15, a 10 % change of the variance found with
-// probability .99.
+// Relative variance of the weight, F = 1: how good the sampling is. The second moment is tested,
+// where four moments are known to exist and its error is small: alpha false_alarm over 15, a 10 %
+// change of the variance found with probability .99.
 TEST(Ggx, VarianceOfTheWeight) {
     struct Row {
         float alpha, mu;
         double albedo, visible_normals, cosine;  // cosine 0: too long a tail for a test in seconds
     };
     const std::vector<Row> rows{
-        {0.1F, 1, .988304, .01056, 0},       {0.1F, 0.5F, .969205, .01891, 0},
-        {0.1F, 0.1F, .883455, .06229, 0},    {0.25F, 1, .915812, .07174, .8199},
-        {0.25F, 0.5F, .857263, .1002, 0},    {0.25F, 0.1F, .891622, .05652, 0},
-        {0.5F, 1, .687849, .3184, .03702},   {0.5F, 0.5F, .698251, .2694, .7487},
-        {0.5F, 0.1F, .860105, .08163, 0},    {1, 1, .306853, 1.415, .02565},
-        {1, 0.5F, .450694, .7333, .06325},   {1, 0.1F, .760210, .1636, .2881}};
+        {0.1F, 1, .988304, .01056, 0},     {0.1F, 0.5F, .969205, .01891, 0},
+        {0.1F, 0.1F, .883455, .06229, 0},  {0.25F, 1, .915812, .07174, .8199},
+        {0.25F, 0.5F, .857263, .1002, 0},  {0.25F, 0.1F, .891622, .05652, 0},
+        {0.5F, 1, .687849, .3184, .03702}, {0.5F, 0.5F, .698251, .2694, .7487},
+        {0.5F, 0.1F, .860105, .08163, 0},  {1, 1, .306853, 1.415, .02565},
+        {1, 0.5F, .450694, .7333, .06325}, {1, 0.1F, .760210, .1636, .2881}};
     for (const Row& row : rows)
         for (const bool by_cosine : {false, true}) {
             const double variance = by_cosine ? row.cosine : row.visible_normals;
@@ -254,8 +257,8 @@ TEST(Ggx, VarianceOfTheWeight) {
             const double change = 0.1 * variance / (1 + variance);
             // the table's four digits
             const double digits = 6e-4 * variance / (1 + variance) + 6e-6;
-            EXPECT_TRUE(mean_is(
-                w.square, (1 + variance) * row.albedo * row.albedo, 18, change, digits))
+            EXPECT_TRUE(
+                mean_is(w.square, (1 + variance) * row.albedo * row.albedo, 18, change, digits))
                 << "alpha " << row.alpha << ", mu " << row.mu << (by_cosine ? ", by cosine" : "");
         }
 }

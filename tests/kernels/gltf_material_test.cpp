@@ -117,7 +117,11 @@ const Probe& probe() {
 
 // In the order of surface_of; base and f0 by channel.
 std::vector<cl_float> material(
-    std::array<float, 3> base, float metallic, float roughness, float f0 = 0.04F, float specular = 1) {
+    std::array<float, 3> base,
+    float metallic,
+    float roughness,
+    float f0 = 0.04F,
+    float specular = 1) {
     return {base[0], base[1], base[2], f0, f0, f0, metallic, specular, roughness * roughness};
 }
 
@@ -151,8 +155,8 @@ TEST(GltfMaterial, DirectionsFollowTheirDensity) {
     for (std::size_t k = 0; k < all.size(); ++k) {
         SCOPED_TRACE(testing::Message() << "case " << k);
         const auto& [surface, mu] = all[k];
-        const auto pdfs =
-            probe().run<cl_float>("densities", nodes.size() / 3, nodes.size() / 3, surface, mu, nodes);
+        const auto pdfs = probe().run<cl_float>(
+            "densities", nodes.size() / 3, nodes.size() / 3, surface, mu, nodes);
         std::vector<double> densities(pdfs.begin(), pdfs.end());
         for (double& density : densities) density *= 2 * pi;
         expect_distribution(
@@ -169,7 +173,8 @@ TEST(GltfMaterial, SamplesKeepTheirContract) {
         for (const float mu : {0.0F, 1e-30F, 1e-6F, 1e-3F})
             all.push_back({material({0.9F, 0.5F, 0.1F}, 0.5F, roughness), mu});
     const std::vector<std::string> rules{
-        "pdf_w = gltf_pdf_w(wi)", "finite and >= 0", "weight = f cos / pdf_w", "reciprocity", "unit wi"};
+        "pdf_w = gltf_pdf_w(wi)", "finite and >= 0", "weight = f cos / pdf_w", "reciprocity",
+        "unit wi"};
     for (std::size_t k = 0; k < all.size(); ++k) {
         const auto breaches = probe().run<cl_uint>(
             "breaches", scaled(1U << 16U), rules.size(), all[k].material, all[k].mu);
@@ -219,13 +224,15 @@ const std::vector<AlbedoRow> albedo_rows{
     {1, 0.5F, .976138, .498518, .450694, .226841},
     {1, 0.2F, .984430, .511781, .641648, .327838}};
 
-// Uniform environment of radiance 1: what a point reflects. By quadrature to 3e-6; glTF's dielectric exceeds 1 by
-// specification. alpha: false_alarm over 60 means, a bias of 1 % found with probability .99.
+// Uniform environment of radiance 1: what a point reflects. By quadrature to 3e-6; glTF's
+// dielectric exceeds 1 by specification. alpha: false_alarm over 60 means, a bias of 1 % found with
+// probability .99.
 TEST(GltfMaterial, DirectionalAlbedo) {
     for (const AlbedoRow& row : albedo_rows) expect_albedos(probe(), row, 4 * albedo_rows.size());
 }
 
-// The same numbers from cosine-distributed directions (SAMPLE_LOBES 0), where the lobe is wide enough for them.
+// The same numbers from cosine-distributed directions (SAMPLE_LOBES 0), where the lobe is wide
+// enough for them.
 TEST(GltfMaterial, DirectionalAlbedoByCosine) {
     const Probe by_cosine = make_probe("#define SAMPLE_LOBES 0\n");
     for (const AlbedoRow& row : albedo_rows)
@@ -243,8 +250,8 @@ TEST(GltfMaterial, WithoutSpecularLobes) {
         EXPECT_EQ(breaches, 0U);
 }
 
-// Below MIRROR_ALPHA: a delta whose weight times its chance is the Fresnel reflectance. alpha: false_alarm over 4
-// shares; a metal's share is 1.
+// Below MIRROR_ALPHA: a delta whose weight times its chance is the Fresnel reflectance. alpha:
+// false_alarm over 4 shares; a metal's share is 1.
 TEST(GltfMaterial, SmoothSurfacesAreMirrors) {
     const std::size_t samples = scaled(1U << 16U);
     for (const float metallic : {0.0F, 1.0F})

@@ -45,12 +45,12 @@ std::vector<double> uneven_weights(std::size_t n) {
     return weights;
 }
 
-// alpha: false_alarm over the tables. With N = 2^22 and up to 200 lights a pmf off by +-0.7 % over half of the table is
-// found with probability .99.
+// alpha: false_alarm over the tables. With N = 2^22 and up to 200 lights a pmf off by +-0.7 % over
+// half of the table is found with probability .99.
 TEST(LightChoice, FollowsThePmf) {
-    for (const std::size_t n : {std::size_t{1}, std::size_t{2}, std::size_t{37}, std::size_t{200}}) {
-        const std::vector<double> weights =
-            n < 3 ? std::vector<double>(n, 2.0) : uneven_weights(n);
+    for (const std::size_t n :
+         {std::size_t{1}, std::size_t{2}, std::size_t{37}, std::size_t{200}}) {
+        const std::vector<double> weights = n < 3 ? std::vector<double>(n, 2.0) : uneven_weights(n);
         const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
         const std::size_t samples = scaled(1U << 22U);
         const auto lights = lights_of(weights);
@@ -65,8 +65,8 @@ TEST(LightChoice, FollowsThePmf) {
     }
 }
 
-// Exact: 2^k stratified numbers differ from 2^k pmf by at most a number at each end of the intervals of a light, of
-// which the table has at most one an entry that names it and one more.
+// Exact: 2^k stratified numbers differ from 2^k pmf by at most a number at each end of the
+// intervals of a light, of which the table has at most one an entry that names it and one more.
 TEST(LightChoice, KeepsStratification) {
     const std::vector<double> weights = uneven_weights(37);
     const auto lights = lights_of(weights);

@@ -95,7 +95,8 @@ TEST(Punctual, SpotFallsOffBetweenItsCones) {
 
 TEST(Punctual, DirectionalIsTheSameEverywhere) {
     const DeviceLight light = light_of(LIGHT_DIRECTIONAL);
-    for (const float x : {0.0F, 0.5F}) EXPECT_FLOAT_EQ(static_cast<float>(radiance_at(light, x)), 4);
+    for (const float x : {0.0F, 0.5F})
+        EXPECT_FLOAT_EQ(static_cast<float>(radiance_at(light, x)), 4);
 }
 
 TEST(Punctual, LightAtThePointItselfGivesNothing) {

@@ -65,7 +65,8 @@ TEST(Rng, UnitFloatStaysBelowOne) {
     EXPECT_EQ(units.back(), 1 - 0x1p-24F);
 }
 
-// Every input bit flips every output bit with probability 1/2 (strict avalanche): z-tests of 1024 frequencies.
+// Every input bit flips every output bit with probability 1/2 (strict avalanche): z-tests of 1024
+// frequencies.
 TEST(Rng, HashAvalanches) {
     const std::size_t inputs = scaled(1U << 16U);
     const auto hashes = probe().run<cl_uint>("hashes", 2 * inputs, 2 * inputs);
@@ -99,13 +100,13 @@ TEST(Rng, StreamsAreUniform) {
         3);
 }
 
-// n Var(block means) = Var(u) = 1/12 unless streams repeat each other; the band is 5 deviations, sqrt(2 / blocks).
+// n Var(block means) = Var(u) = 1/12 unless streams repeat each other; the band is 5 deviations,
+// sqrt(2 / blocks).
 TEST(Rng, BlocksAreIndependent) {
     constexpr cl_uint n = 64;
     const std::size_t blocks = scaled(1U << 16U);
     Moments means;
-    for (const float mean :
-         probe().run<cl_float>("block_means", blocks, blocks, cl_uint{3}, n))
+    for (const float mean : probe().run<cl_float>("block_means", blocks, blocks, cl_uint{3}, n))
         means.add(mean);
     EXPECT_NEAR(12 * n * means.variance(), 1, 5 * std::sqrt(2 / static_cast<double>(blocks)));
     EXPECT_LT(std::abs(means.mean()), 5 * means.standard_error());

@@ -82,13 +82,15 @@ kernel void integrals(const uint count, global float* out, const uint n) {
     return instance;
 }
 
-// Whether each of the 2^a x 2^(k-a) boxes holds exactly one of the 2^k points, for every a: a (0, k, 2)-net.
+// Whether each of the 2^a x 2^(k-a) boxes holds exactly one of the 2^k points, for every a: a (0,
+// k, 2)-net.
 bool is_net(const cl_uint* points, cl_uint k) {
     for (cl_uint a = 0; a <= k; ++a) {
         std::vector<bool> taken(std::size_t{1} << k);
         for (std::size_t i = 0; i < taken.size(); ++i) {
             const auto column = static_cast<std::size_t>(cl_ulong{points[2 * i]} >> (32 - a));
-            const auto row = static_cast<std::size_t>(cl_ulong{points[2 * i + 1]} >> (32 - (k - a)));
+            const auto row =
+                static_cast<std::size_t>(cl_ulong{points[2 * i + 1]} >> (32 - (k - a)));
             const std::size_t box = (column << (k - a)) | row;
             if (taken[box]) return false;
             taken[box] = true;
@@ -142,8 +144,8 @@ TEST(Sobol, PointsAreUniformAndIndependentOverSeeds) {
         comparisons);
 }
 
-// Over seeds the mean is right (alpha: false_alarm) and its variance falls as n^-3: scrambled nets on a smooth
-// integrand, against n^-1 of independent points (Owen 1997).
+// Over seeds the mean is right (alpha: false_alarm) and its variance falls as n^-3: scrambled nets
+// on a smooth integrand, against n^-1 of independent points (Owen 1997).
 TEST(Sobol, ErrorFallsFasterThanAtRandom) {
     const std::size_t seeds = scaled(4096);
     const auto moments = [&](cl_uint n) {

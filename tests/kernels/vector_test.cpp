@@ -77,9 +77,11 @@ TEST(Vector, FrameIsOrthonormal) {
         const double y = normal(random);
         add(x, y, normal(random));
     }
-    const auto worst = probe().run<cl_float>("frames", normals.size() / 3, normals.size() / 3, normals);
+    const auto worst =
+        probe().run<cl_float>("frames", normals.size() / 3, normals.size() / 3, normals);
     for (std::size_t i = 0; i < worst.size(); ++i)
-        ASSERT_LT(worst[i], 1e-6F) << normals[3 * i] << ' ' << normals[3 * i + 1] << ' ' << normals[3 * i + 2];
+        ASSERT_LT(worst[i], 1e-6F)
+            << normals[3 * i] << ' ' << normals[3 * i + 1] << ' ' << normals[3 * i + 2];
 }
 
 }  // namespace

@@ -135,7 +135,8 @@ TEST(Warp, Atan2Error) {
     double worst = 0;
     for (std::size_t i = 0; i < out.size(); ++i)
         worst = std::max(
-            worst, std::abs(out[i] - std::atan2(double{yx[2 * i]}, double{yx[2 * i + 1]}) / (2 * pi)));
+            worst,
+            std::abs(out[i] - std::atan2(double{yx[2 * i]}, double{yx[2 * i + 1]}) / (2 * pi)));
     EXPECT_LT(worst, 1e-7) << worst;
 }
 

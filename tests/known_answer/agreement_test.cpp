@@ -33,8 +33,8 @@ TEST(Agreement, OfAllMethodsThatSeeTheLight) {
     }
     for (std::size_t a = 0; a < results.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
-            // `path` and `bsdf` meet the light by chance only: 0.5 % would take them 10^7 samples
-            const double bias = a < 3 ? 0.005 : 0.02;
+            // `path` and `bsdf` meet the light by chance only: 0.5 % would take them 3e7 samples, the others 3e6
+            const double bias = a < 3 ? 0.01 : 0.03;
             for (const char* channel : {"R", "G", "B"}) {
                 SCOPED_TRACE(fmt::format("{} and {}, {}", runs[a].method, runs[b].method, channel));
                 EXPECT_TRUE(agree(image_mean(results[a], channel), image_mean(results[b], channel), {.bias = bias, .tests = 30}));
@@ -56,14 +56,14 @@ TEST(Agreement, OfLightChoices) {
             RenderSettings settings = square_settings(name, camera, 16, 256);
             settings.method.light_choice = choice;
             settings.seed = static_cast<uint32_t>(results.size() + 1);
-            results.push_back(render_for({.bias = 0.003, .tests = 12}, scene, settings));
+            results.push_back(render_for({.bias = 0.007, .tests = 12}, scene, settings));
         }
     }
     for (std::size_t a = 0; a < results.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
             SCOPED_TRACE(fmt::format("runs {} and {}", a, b));
             for (const char* channel : {"R", "G"})
-                EXPECT_TRUE(agree(shared_mean(results[a], channel), shared_mean(results[b], channel), {.tests = 12}));
+                EXPECT_TRUE(agree(shared_mean(results[a], channel), shared_mean(results[b], channel), {.bias = 0.01, .tests = 12}));
         }
     }
 }

@@ -40,7 +40,8 @@ Probe::Probe(
 void Probe::launch(const cl::Kernel& kernel, std::size_t items) {
     const std::size_t rounded = (items + work_group - 1) / work_group * work_group;
     const cl::CommandQueue& queue = test_device().queue;
-    queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(work_group));
+    queue.enqueueNDRangeKernel(
+        kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(work_group));
     queue.finish();
 }
 

@@ -1,4 +1,5 @@
-// Runs device functions of kernels/ by themselves: a program of kernel files and a few kernels of the test's own.
+// Runs device functions of kernels/ by themselves: a program of kernel files and a few kernels of
+// the test's own.
 #pragma once
 
 #include "device/device.h"
@@ -14,7 +15,8 @@ namespace wavepath {
 // The device that WAVEPATH_TEST_DEVICE selects (see open_device), opened once.
 const Device& test_device();
 
-// WAVEPATH_TEST_SCALE, a fraction of all sample counts (1 by default): for interpreters such as oclgrind.
+// WAVEPATH_TEST_SCALE, a fraction of all sample counts (1 by default): for interpreters such as
+// oclgrind.
 double test_scale();
 
 // `samples` times test_scale(), at least 1.
@@ -31,8 +33,8 @@ class Probe {
         const std::string& text,
         const std::string& defines = "");
 
-    // Runs `kernel` for `items` work-items on `results` zeros and returns them; a std::vector among `arguments` becomes
-    // a buffer, anything else is passed as it is.
+    // Runs `kernel` for `items` work-items on `results` zeros and returns them; a std::vector among
+    // `arguments` becomes a buffer, anything else is passed as it is.
     template <typename T, typename... Arguments>
     std::vector<T> run(
         const std::string& kernel,
@@ -54,7 +56,10 @@ class Probe {
   private:
     template <typename T>
     static void bind(
-        cl::Kernel& kernel, cl_uint index, const T& argument, std::vector<cl::Buffer>& /*buffers*/) {
+        cl::Kernel& kernel,
+        cl_uint index,
+        const T& argument,
+        std::vector<cl::Buffer>& /*buffers*/) {
         static_assert(std::is_arithmetic_v<T>);
         kernel.setArg(index, argument);
     }

@@ -30,7 +30,8 @@ double solve_tail(const Tail& tail, double p) {
     return 0.5 * (low + high);
 }
 
-// Continued fraction b0 + a1 / (b1 + a2 / (b2 + ...)) by Lentz's recurrence; `term(k)` gives {a_k, b_k}.
+// Continued fraction b0 + a1 / (b1 + a2 / (b2 + ...)) by Lentz's recurrence; `term(k)` gives {a_k,
+// b_k}.
 template <typename Term>
 double continued_fraction(double b0, const Term& term) {
     constexpr double tiny = 1e-300;
@@ -61,8 +62,9 @@ double incomplete_beta(double x, double a, double b) {
         b * std::log1p(-x));
     const double fraction = continued_fraction(1, [&](int k) {
         const int m = k / 2;
-        const double top = k % 2 == 0 ? m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m))
-                                      : -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
+        const double top = k % 2 == 0
+                               ? m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m))
+                               : -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
         return Term{top, 1};
     });
     return front / (a * fraction);
@@ -71,8 +73,8 @@ double incomplete_beta(double x, double a, double b) {
 double student_tail(double t, double degrees) {
     const double x = degrees / (degrees + t * t);
     const double a = 0.5 * degrees;
-    const double both = x < (a + 1) / (a + 2.5) ? incomplete_beta(x, a, 0.5)
-                                                : 1 - incomplete_beta(1 - x, 0.5, a);
+    const double both =
+        x < (a + 1) / (a + 2.5) ? incomplete_beta(x, a, 0.5) : 1 - incomplete_beta(1 - x, 0.5, a);
     return 0.5 * both;
 }
 
@@ -131,8 +133,9 @@ testing::AssertionResult mean_is(
     const double error = batches.standard_error();
     if (!(std::abs(batches.mean() - truth) <= critical * error + tolerance * std::abs(truth)))
         return testing::AssertionFailure()
-               << "mean " << batches.mean() << " +- " << error << ", expected " << truth << ": off by "
-               << (batches.mean() - truth) / error << " standard errors, " << critical << " allowed";
+               << "mean " << batches.mean() << " +- " << error << ", expected " << truth
+               << ": off by " << (batches.mean() - truth) / error << " standard errors, "
+               << critical << " allowed";
     const double found = (critical + power_quantile) * error;
     if (bias > 0 && test_scale() >= 1 && !(found <= bias * std::abs(truth)))
         return testing::AssertionFailure()
