@@ -38,15 +38,13 @@ typedef struct {
 } RenderParams;
 SHARED_SIZE(RenderParams, 144);
 
-// One row of the sample plan: which samples of every pixel a pass takes.
+// One row of the sample plan: which samples of every pixel a pass takes, counted from the pixel's first.
 typedef struct {
-    shared_uint batch;           // independently scrambled set of points
-    shared_uint samples_before;  // of all batches before this one
-    shared_uint first_sample;    // of the batch
-    shared_uint samples;         // in this pass
-    shared_uint closes_batch;    // the batch's number of samples if this is its last pass, else 0
-    shared_uint padding[3];
+    shared_uint first_sample;
+    shared_uint samples;
+    shared_uint batch_start;   // first sample of the batch the pass belongs to
+    shared_uint closes_batch;  // the batch's number of samples if this is its last pass, else 0
 } PlanRow;
-SHARED_SIZE(PlanRow, 32);
+SHARED_SIZE(PlanRow, 16);
 
 #endif

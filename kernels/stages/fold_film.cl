@@ -59,7 +59,7 @@ kernel void fold_film(
             const float n = (float)plan[pass].closes_batch;
             const float batch_mean = (batch.sum - batch.lost) / n;
             const float difference = batch_mean - mean;
-            mean += difference * (n / ((float)plan[pass].samples_before + n));
+            mean += difference * (n / ((float)plan[pass].batch_start + n));
             deviation += n * difference * (batch_mean - mean);
             batch.sum = 0.0f;
             batch.lost = 0.0f;
@@ -74,7 +74,7 @@ kernel void fold_film(
         const uint flags = cell_flags[pass * params.window_pixels + i];
         if (flags == 0) continue;
         if (film_flags[FILM_NONFINITE * pixels + pixel] == 0) {
-            const uint sample = plan[pass].samples_before + plan[pass].first_sample + (flags & 0xffffu) - 1;
+            const uint sample = plan[pass].first_sample + (flags & 0xffffu) - 1;
             film_flags[FILM_FIRST_NONFINITE * pixels + pixel] = sample;
         }
         film_flags[FILM_NONFINITE * pixels + pixel] += flags >> 16;

@@ -46,7 +46,7 @@ kernel void generate_rays(
         pass = old_pass + params.pass_step + wrapped;
         left = plan[(int)pass].samples - 1;
         sample = 0;
-        seed = hash_pair(hash_pair(params.seed, pixel), plan[(int)pass].batch);
+        seed = hash_pair(params.seed, pixel);
         index = reverse_bits_32(plan[(int)pass].first_sample);
     }
     PLANE(ids, ID_CELL)[slot] = cell;

@@ -137,7 +137,7 @@ void QueueManager::report_runaway(uint32_t slot, const Window& window) const {
     throw Error(
         "pixel {}, sample {}: the path is still alive after {} scatterings: nothing in the scene absorbs it; "
         "lower an albedo, or use --termination depth:D (biased)",
-        id(ID_PIXEL), row.samples_before + row.first_sample + id(ID_SAMPLE), MAX_SCATTERINGS);
+        id(ID_PIXEL), row.first_sample + id(ID_SAMPLE), MAX_SCATTERINGS);
 }
 
 RayCounts QueueManager::ray_counts() const {

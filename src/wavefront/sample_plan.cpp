@@ -17,9 +17,8 @@ std::vector<PlanRow> SamplePlan::take(uint64_t count) {
     while (rows.size() < count && !done()) {
         const uint32_t size = batch_size();
         PlanRow row{};
-        row.batch = batch_;
-        row.samples_before = before_;
-        row.first_sample = in_batch_;
+        row.first_sample = static_cast<uint32_t>(taken_);
+        row.batch_start = before_;
         row.samples = std::min(pass_samples, size - in_batch_);
         in_batch_ += row.samples;
         taken_ += row.samples;

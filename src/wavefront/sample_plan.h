@@ -8,8 +8,10 @@
 
 namespace wavepath {
 
-// Samples of a pixel fall into batches, each a set of points scrambled on its own; a batch into passes of at most
-// `pass_samples`: one pass gives every pixel one unit of work.
+// The samples of a pixel are one sequence of points. They fall into batches, whose spread tells the variance of the mean, and
+// a batch into passes of at most `pass_samples`: one pass gives every pixel one unit of work. Batches are blocks of one
+// scrambled sequence, not sequences of their own: on the plates scene 16 sequences of 4 points have 1.65 times the variance
+// of one of 64. The price is that the spread of blocks, which repel each other, overstates it (docs/accuracy.md).
 class SamplePlan {
   public:
     static constexpr uint32_t pass_samples = 8;

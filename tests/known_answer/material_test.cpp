@@ -86,7 +86,7 @@ TEST(MirrorInFurnace, ChangesNothing) {
         add_box(scene, lambert(grey(0.5F), grey(0.5F)), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
         add_box(scene, metal(grey(1), 0), {-0.3, -0.3, -0.3}, {0.3, 0.2, 0.1}, Facing::outward);
         const Camera camera = perspective({0.7, 0.6, 0.8}, {0, 0, 0}, 0.6);
-        const RenderResult result = render_scene(scene, square_settings(method, camera, 64, 192));
+        const RenderResult result = render_scene(scene, square_settings(method, camera, 64, 320));
         EXPECT_TRUE(has_mean(shared_mean(result), 1));
         for (const Estimate& block : block_means(result)) EXPECT_TRUE(has_mean(block, 1, {.bias = 0.1, .tests = 64}));
     }
@@ -108,7 +108,7 @@ TEST(IsothermalEnclosure, HasOneRadiance) {
     for (const char* method : {"bsdf", "mis"}) {
         SCOPED_TRACE(method);
         const Camera camera = perspective({0.8, 0.7, 0.9}, {0.3, 0.4, 0.2}, 1.3);
-        const RenderResult result = render_scene(scene, square_settings(method, camera, 64, 192));
+        const RenderResult result = render_scene(scene, square_settings(method, camera, 64, 320));
         EXPECT_TRUE(has_mean(image_mean(result), 1));
         for (const Estimate& block : block_means(result)) EXPECT_TRUE(has_mean(block, 1, {.bias = 0.1, .tests = 64}));
     }

@@ -76,18 +76,21 @@ std::string trapped_message() {
     return error_of([&] { render(test_device(), trap(), settings); });
 }
 
+void replace_in(const std::filesystem::path& file, const std::string& text, const std::string& replacement) {
+    std::stringstream content;
+    content << std::ifstream(file).rdbuf();
+    std::string changed = content.str();
+    const std::size_t at = changed.find(text);
+    ASSERT_NE(at, std::string::npos) << file << ": no " << text;
+    std::ofstream(file, std::ios::trunc) << changed.replace(at, text.size(), replacement);
+}
+
 // With a limit of 1000 instead of 10^6 scatterings in the kernels, so that it ends in a second.
 TEST(Runaway, StopsWithItsPixelAndSample) {
     const TemporaryFolder folder;
     std::filesystem::copy(WAVEPATH_SOURCE_DIR "/kernels", folder.path(), std::filesystem::copy_options::recursive);
-    const std::filesystem::path header = folder / "shared/queues.h";
-    std::stringstream text;
-    text << std::ifstream(header).rdbuf();
-    std::string changed = text.str();
-    const std::size_t at = changed.find("1000000u");
-    ASSERT_NE(at, std::string::npos);
-    std::ofstream(header, std::ios::trunc) << changed.replace(at, 8, "1000u");
-
+    replace_in(folder / "shared/queues.h", "1000000u", "1000u");
+    replace_in(folder / "stages/sample_indirect.cl", "params.max_scatterings", "MAX_SCATTERINGS");
     const EnvironmentVariable kernels("WAVEPATH_KERNELS", folder.path().string());
     const std::string message = trapped_message();
     EXPECT_TRUE(message.starts_with("pixel 0, sample 0: the path is still alive after")) << message;

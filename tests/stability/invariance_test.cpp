@@ -19,29 +19,33 @@ Scene corner() {
     return scene;
 }
 
-RenderResult corner_at(double scale, const Vec3d& shift, uint32_t seed) {
+RenderResult corner_at(double scale, const Vec3d& shift) {
     Scene scene = corner();
-    Camera camera = perspective({2.5, -2, 2}, {0, 0, 0.3}, 0.6);
+    Camera camera = perspective({1.8, -1.4, 1.3}, {0, 0, 0.3}, 0.6);
     transform(scene, camera, scale, shift);
-    RenderSettings settings = square_settings("mis", camera, 64, 64);
-    settings.seed = seed;
-    return render_scene(scene, settings);
+    return render_scene(scene, square_settings("mis", camera, 64, 16));
 }
 
+// The same random numbers in both pictures: what differs is rounding, which turns a path here and there.
 TEST(Invariance, UnderTranslationAndScale) {
     const struct {
         double scale;
         Vec3d shift;
     } cases[] = {{1, {1e3, -1e3, 1e3}}, {1e-4, {0, 0, 0}}, {1e4, {0, 0, 0}}, {1e4, {1e6, 0, -1e6}}, {1e-4, {1, 0, 0}}};
-    const Estimate home = image_mean(corner_at(1, {0, 0, 0}, 1));
-    uint32_t seed = 2;
+    const RenderResult home = corner_at(1, {0, 0, 0});
+    const std::vector<float>& before = home.film.image.channels.at("R");
+    const double mean = image_mean(home).mean;
     for (const auto& [scale, shift] : cases) {
         SCOPED_TRACE(fmt::format("scale {}, shift ({}, {}, {})", scale, shift[0], shift[1], shift[2]));
-        const RenderResult result = corner_at(scale, shift, seed++);
-        EXPECT_TRUE(agree(image_mean(result), home, {.tests = 5}));
+        const RenderResult result = corner_at(scale, shift);
+        const std::vector<float>& after = result.film.image.channels.at("R");
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < after.size(); ++i) ratios.push_back(1 + (after[i] - before[i]) / mean);
+        EXPECT_TRUE(has_mean(estimate_of(ratios), 1, {.tests = 5}));
         // the depth layer stays in metres
-        const std::vector<float>& depth = result.film.image.channels.at("depth.Z");
-        EXPECT_NEAR(depth[40 * 64 + 32] / scale, corner_at(1, {0, 0, 0}, seed - 1).film.image.channels.at("depth.Z")[40 * 64 + 32], 1e-3);
+        constexpr std::size_t middle = 32 * 64 + 32;
+        const double depth = result.film.image.channels.at("depth.Z")[middle];
+        EXPECT_NEAR(depth / scale, home.film.image.channels.at("depth.Z")[middle], 1e-3);
     }
 }
 

@@ -20,7 +20,7 @@ void expect_half_everywhere(Scene scene, const Camera& camera, const std::string
             const std::vector<float>& pixels = result.film.image.channels.at("R");
             EXPECT_EQ(std::ranges::count_if(pixels, [](float x) { return std::abs(x - 0.5F) > 1e-6F; }), 0);
         } else {
-            EXPECT_TRUE(has_mean(shared_mean(result), 0.5));
+            EXPECT_TRUE(has_mean(shared_mean(result), 0.5, {.bias = 0.02}));
         }
     }
 }
@@ -103,8 +103,8 @@ TEST(ThinGap, LetsNoLightIn) {
     const Camera camera = close_up({0.1, 0.05, 0}, {0, 0, 1}, gap / 2, 0.1);
     for (const char* method : {"bsdf", "direct"}) {
         SCOPED_TRACE(method);
-        // the open rim shows in gap^2 / .16 = 1e-8 of the directions
-        EXPECT_EQ(shared_mean(render_scene(scene, square_settings(method, camera, 64, 64))).mean, 0);
+        // the open rim is gap^2 / .16 = 1e-8 of the projected solid angle
+        EXPECT_LT(shared_mean(render_scene(scene, square_settings(method, camera, 64, 64))).mean, 1e-6);
     }
 }
 
