@@ -30,6 +30,21 @@ INLINE float safe_reciprocal(const float d) {
     return 1.0f / (fabs(d) < 1e-18f ? copysign(1e-18f, d) : d);
 }
 
+// t_max, or -1, before which nothing lies, for a ray that means nothing: no length, no direction, a
+// number that is none or so large that slabs would overflow. With it no comparison meets a NaN.
+INLINE float end_of_ray(
+    const float ox,
+    const float oy,
+    const float oz,
+    const float dx,
+    const float dy,
+    const float dz,
+    const float t_max) {
+    const float away = fabs(ox) + fabs(oy) + fabs(oz);
+    const float length = fabs(dx) + fabs(dy) + fabs(dz);
+    return t_max > 0.0f && away < 1e18f && length > 1e-18f && length < 1e18f ? t_max : -1.0f;
+}
+
 INLINE SlabRay slab_ray(
     const float ox,
     const float oy,
@@ -117,7 +132,7 @@ Hit closest_hit(
     const float t_max) {
     const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
-    Hit hit = {t_max, 0.0f, 0.0f, -1};
+    Hit hit = {end_of_ray(ox, oy, oz, dx, dy, dz, t_max), 0.0f, 0.0f, -1};
     uint waiting[BVH_STACK];
     float waiting_t[BVH_STACK];
     int top = 0;
@@ -174,15 +189,16 @@ int any_hit(
     const float t_max) {
     const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
+    const float end = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
     uint waiting[BVH_STACK];
     int top = 0;
     uint current = 0;
     for (;;) {
         if (current & BVH_LEAF) {
-            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, t_max)) return 1;
+            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, end)) return 1;
         } else {
             float8 t_near;
-            uint lanes = lane_mask(intersect_node(nodes + current, &slabs, t_max, &t_near));
+            uint lanes = lane_mask(intersect_node(nodes + current, &slabs, end, &t_near));
             global const uint* children = nodes[current].children;
             while (lanes != 0) {
                 const uint lane = 31u - clz(lanes);

@@ -79,14 +79,15 @@ INLINE void stream_add(
     StreamRay* ray = &stream->rays[i];
     ray->slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     ray->sheared = shear_ray(ox, oy, oz, dx, dy, dz);
-    ray->hit.t = t_max > 0.0f ? t_max : 0.0f;  // not NaN: the end mark must be found
+    ray->hit.t = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
     ray->hit.u = 0.0f;
     ray->hit.v = 0.0f;
     ray->hit.primitive = -1;
     ray->item = item;
     ray->current = 0;
     ray->top = 8;
-    vstore8((float8)(-1.0f), 0, ray->waiting_t);  // the end mark is nearer than any hit
+    vstore8(
+        (float8)(-1.0f), 0, ray->waiting_t);  // the end mark counts as near enough for any hit.t
     ray->waiting[7] = BVH_EMPTY;
     stream->at_node[stream->nodes] = i;
     ++stream->nodes;

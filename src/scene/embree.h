@@ -1,4 +1,5 @@
-// The one place that knows which Embree there is, in the order of CMakeLists.txt; rtcBuildBVH is the same in 3 and 4.
+// The one place that knows which Embree there is, in the order of CMakeLists.txt; rtcBuildBVH is
+// the same in 3 and 4.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)

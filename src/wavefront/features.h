@@ -23,6 +23,7 @@ struct Features {
     bool sample_lobes = false;
     bool weigh_both = false;
     bool sobol = true;
+    uint32_t rays_per_item = 1;  // that a work-item of intersect and occlusion traces
 
     // The #define lines that kernels/shared/features.h expects.
     std::string defines() const;

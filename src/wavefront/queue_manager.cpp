@@ -41,7 +41,7 @@ QueueManager::QueueManager(
       cell_flags_(device, max_cells, "units of work"),
       assign_units_(program, "assign_units", groups.streaming, profile),
       generate_rays_(program, "generate_rays", groups.streaming, profile),
-      intersect_(program, "intersect", groups.traversal, profile),
+      intersect_(program, "intersect", features.rays_per_item > 1 ? 1 : groups.traversal, profile),
       interact_(program, "interact", groups.streaming, profile),
       first_hit_(program, "first_hit", groups.streaming, profile),
       shade_miss_(stage_if<decltype(shade_miss_)::value_type>(features.environment, program, "shade_miss", groups.streaming, profile)),
@@ -49,7 +49,7 @@ QueueManager::QueueManager(
           stage_if<decltype(shade_emission_)::value_type>(features.area_lights, program, "shade_emission", groups.streaming, profile)),
       direct_light_(
           stage_if<decltype(direct_light_)::value_type>(features.sample_lights, program, "direct_light", groups.streaming, profile)),
-      occlusion_(stage_if<decltype(occlusion_)::value_type>(features.sample_lights, program, "occlusion", groups.traversal, profile)),
+      occlusion_(stage_if<decltype(occlusion_)::value_type>(features.sample_lights, program, "occlusion", features.rays_per_item > 1 ? 1 : groups.traversal, profile)),
       sample_indirect_(program, "sample_indirect", groups.streaming, profile),
       roulette_compact_(program, "roulette_compact", groups.streaming, profile),
       resume_branch_(
@@ -67,7 +67,8 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
     assign_units_.launch(device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.radiances);
     while (work.active > 0) {
         generate_rays_.launch(device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays, pool_.throughputs, pool_.radiances);
-        intersect_.launch(device_, slots, params_, slots, scene_.nodes, scene_.blocks, pool_.rays, pool_.hits);
+        const uint32_t ray_items = (slots + features_.rays_per_item - 1) / features_.rays_per_item;
+        intersect_.launch(device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, pool_.rays, pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
         interact_.launch(device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays, pool_.hits, pool_.surfaces);
         first_hit_.launch(device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
@@ -77,7 +78,7 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
             shade_emission_->launch(device_, slots, params_, slots, scene_.materials, scene_.lights, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
         if (direct_light_) {
             direct_light_->launch(device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights, scene_.environment, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs, pool_.ids, pool_.shadows);
-            occlusion_->launch(device_, slots, params_, slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
+            occlusion_->launch(device_, (slots + features_.rays_per_item - 1) / features_.rays_per_item, params_, slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
         }
         sample_indirect_.launch(device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids, pool_.branches);
         roulette_compact_.launch(device_, slots, params_, slots, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);

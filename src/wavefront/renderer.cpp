@@ -11,6 +11,9 @@ namespace wavepath {
 
 namespace {
 
+constexpr std::size_t stream_nodes = 1024;
+constexpr uint32_t stream_rays = 128;
+
 class Stopwatch {
   public:
     // Seconds since the last lap, or since the start.
@@ -110,10 +113,12 @@ RenderResult render(
     const NormalisedScene geometry = normalise(scene);
     const LightTables tables = build_light_tables(scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
     check_lights(scene, geometry, tables, settings.method, result);
-    const Features features = features_of(scene, geometry, tables, settings.method, settings.splits > 1 ? settings.split_depth : 0, settings.sobol);
+    Features features = features_of(scene, geometry, tables, settings.method, settings.splits > 1 ? settings.split_depth : 0, settings.sobol);
     result.times.normalise = watch.lap();
     const Bvh bvh = build_bvh(geometry.positions);
     result.times.bvh_build = watch.lap();
+    // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait for memory together.
+    if (device.info.is_cpu && bvh.nodes.size() >= stream_nodes) features.rays_per_item = stream_rays;
     const SceneBuffers buffers(device, scene, geometry, bvh, tables);
     result.times.upload = watch.lap();
 

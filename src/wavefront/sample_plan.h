@@ -8,15 +8,16 @@
 
 namespace wavepath {
 
-// The samples of a pixel are one sequence of points. They fall into batches, whose spread tells the variance of the mean, and
-// a batch into passes of at most `pass_samples`: one pass gives every pixel one unit of work. Batches are blocks of one
-// scrambled sequence, not sequences of their own: on the plates scene 16 sequences of 4 points have 1.65 times the variance
-// of one of 64. The price is that the spread of blocks, which repel each other, overstates it (docs/accuracy.md).
+// The samples of a pixel fall into batches, each a sequence of points scrambled on its own, so that their spread tells the
+// variance of the mean without bias; a batch falls into passes of at most `pass_samples`: one pass gives every pixel one
+// unit of work. Batches hold at least `least_batch` samples, for a short sequence stratifies little: at 64 samples 16
+// sequences of 4 have 1.1 (Cornell box, plates) times the variance of 4 of 16 (docs/accuracy.md).
 class SamplePlan {
   public:
     static constexpr uint32_t pass_samples = 8;
-    static constexpr uint32_t batches = 16;        // of a fixed number of samples; fewer where there are fewer
-    static constexpr uint32_t open_batch = 16;     // samples of a batch where the number is open
+    static constexpr uint32_t most_batches = 16;   // of a fixed number of samples
+    static constexpr uint32_t least_batch = 16;    // samples of a batch; all of them where the number is open
+    static constexpr uint32_t least_batches = 4;   // even so, unless there are fewer samples
 
     // `samples` a pixel, 0: open-ended.
     explicit SamplePlan(uint64_t samples);

@@ -24,7 +24,7 @@ TEST(Agreement, OfAllMethodsThatSeeTheLight) {
     const struct {
         const char* method;
         uint64_t samples;
-    } runs[] = {{"mis", 96}, {"direct", 96}, {"direct-bsdf", 96}, {"path", 256}, {"bsdf", 256}};
+    } runs[] = {{"mis", 128}, {"direct", 128}, {"direct-bsdf", 128}, {"path", 256}, {"bsdf", 256}};
     std::vector<RenderResult> results;
     for (const auto& [method, samples] : runs) {
         RenderSettings settings = square_settings(method, at_the_door, 64, samples);
@@ -34,7 +34,7 @@ TEST(Agreement, OfAllMethodsThatSeeTheLight) {
     for (std::size_t a = 0; a < results.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
             // `path` and `bsdf` meet the light by chance only: 0.5 % would take them 3e7 samples, the others 3e6
-            const double bias = a < 3 ? 0.01 : 0.03;
+            const double bias = a < 3 ? 0.012 : 0.03;
             for (const char* channel : {"R", "G", "B"}) {
                 SCOPED_TRACE(fmt::format("{} and {}, {}", runs[a].method, runs[b].method, channel));
                 EXPECT_TRUE(agree(image_mean(results[a], channel), image_mean(results[b], channel), {.bias = bias, .tests = 30}));

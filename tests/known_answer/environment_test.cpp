@@ -16,24 +16,29 @@ Environment map_of(float value) {
     return {grey(1), width, height, std::vector<float>(std::size_t{3} * width * height, value)};
 }
 
+// Directions chosen all round the sphere, by area, waste half of themselves: 1 % has to do there.
+Strictness strictness_of(const std::string& method) {
+    return {.bias = method == "direct" ? 0.01 : 0.005, .truth_error = 1e-5};
+}
+
 RenderResult plate_under(const Environment& environment, const Vec3d& normal, const char* method) {
     Scene scene = scene_named("plate");
     add_square(scene, lambert(grey(1)), {0, 0, 0}, normal, 1);
     scene.environment = environment;
-    return render_for({}, scene, square_settings(method, close_up({0, 0, 0}, normal, 0.1, 0.01), 16, 256));
+    return render_for(strictness_of(method), scene, square_settings(method, close_up({0, 0, 0}, normal, 0.1, 0.01), 16, 256));
 }
 
 TEST(Environment, ConstantLightsAWhitePlateToItsOwnRadiance) {
     for (const char* method : {"path", "bsdf", "direct", "mis"}) {
         SCOPED_TRACE(method);
-        EXPECT_TRUE(has_mean(shared_mean(plate_under(constant_environment(1), {1, 2, 3}, method)), 1));
+        EXPECT_TRUE(has_mean(shared_mean(plate_under(constant_environment(1), {1, 2, 3}, method)), 1, strictness_of(method)));
     }
 }
 
 TEST(Environment, MapOfOnesIsTheConstant) {
     for (const char* method : {"path", "direct", "mis"}) {
         SCOPED_TRACE(method);
-        EXPECT_TRUE(has_mean(shared_mean(plate_under(map_of(1), {1, 2, 3}, method)), 1));
+        EXPECT_TRUE(has_mean(shared_mean(plate_under(map_of(1), {1, 2, 3}, method)), 1, strictness_of(method)));
     }
 }
 
@@ -67,7 +72,7 @@ TEST(Environment, OneBrightTexelLightsFromItsPlace) {
         const double truth = irradiance_of_texel(column, row, 100, normal);
         for (const char* method : {"direct", "mis"}) {
             SCOPED_TRACE(fmt::format("{}, normal ({}, {}, {})", method, normal[0], normal[1], normal[2]));
-            EXPECT_TRUE(has_mean(shared_mean(plate_under(map, normal, method)), truth, {.truth_error = 1e-4}));
+            EXPECT_TRUE(has_mean(shared_mean(plate_under(map, normal, method)), truth, strictness_of(method)));
         }
     }
 }

@@ -1,0 +1,215 @@
+// WAVEPATH_HIT_RAYS: rays in all, 10^6 by default; 10^7 before a release. WAVEPATH_INSIDE_RAYS:
+// those from inside closed meshes, 10^6 by default; 10^9 takes an hour or two.
+#include "scene/bvh_builder.h"
+#include "support/probe.h"
+#include "support/ray_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+
+namespace wavepath {
+namespace {
+
+const Probe& probe() {
+    static const Probe instance({"geometry/bvh.cl"}, R"(
+kernel void closest(
+    const uint count, global Hit* out, global const float* rays, global const BvhNode* nodes,
+    global const TriangleBlock* blocks) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) return;
+    global const float* r = rays + 8 * i;
+    out[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+}
+
+kernel void blocked(
+    const uint count, global int* out, global const float* rays, global const BvhNode* nodes,
+    global const TriangleBlock* blocks) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) return;
+    global const float* r = rays + 8 * i;
+    out[i] = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+}
+)");
+    return instance;
+}
+
+// Room for vectors of TestRay as a probe's argument: 8 floats each.
+std::vector<cl_float> floats_of(const std::vector<TestRay>& rays) {
+    std::vector<cl_float> floats(8 * rays.size());
+    std::memcpy(floats.data(), rays.data(), rays.size() * sizeof(TestRay));
+    return floats;
+}
+
+std::vector<TestHit> closest(const Bvh& bvh, const std::vector<TestRay>& rays) {
+    return probe().run<TestHit>(
+        "closest", rays.size(), rays.size(), floats_of(rays), bvh.nodes, bvh.blocks);
+}
+
+std::vector<cl_int> any(const Bvh& bvh, const std::vector<TestRay>& rays) {
+    return probe().run<cl_int>(
+        "blocked", rays.size(), rays.size(), floats_of(rays), bvh.nodes, bvh.blocks);
+}
+
+// The rays of one kind at one mesh, of `kinds`, in batches.
+template <typename Check>
+void in_batches(const char* variable, std::size_t kinds, const Check& check) {
+    const char* wanted = std::getenv(variable);
+    const double total =
+        wanted != nullptr ? std::atof(wanted) : static_cast<double>(scaled(1'000'000));
+    auto left = static_cast<std::size_t>(std::ceil(total / static_cast<double>(kinds)));
+    for (unsigned seed = 1; left > 0; ++seed) {
+        const std::size_t count = std::min<std::size_t>(left, 1U << 18U);
+        std::mt19937 random(seed);
+        check(count, random);
+        if (testing::Test::HasFailure()) return;
+        left -= count;
+    }
+}
+
+constexpr std::array aims{Aim::random, Aim::axis_parallel, Aim::edge, Aim::vertex};
+
+std::string text_of(const TestRay& ray) {
+    char text[200];
+    std::snprintf(
+        text, sizeof text, "ray (%a %a %a) (%a %a %a)", ray.origin[0], ray.origin[1], ray.origin[2],
+        ray.direction[0], ray.direction[1], ray.direction[2]);
+    return text;
+}
+
+std::vector<TestMesh> all_meshes() {
+    const std::size_t n = scaled(100);
+    return {
+        box_mesh(),
+        room_mesh(),
+        sphere_mesh(static_cast<unsigned>(8 + n), static_cast<unsigned>(8 + n)),
+        height_field_mesh(static_cast<unsigned>(8 + 2 * n)),
+        soup_mesh(200 * n),
+        rods_mesh(static_cast<unsigned>(20 * n))};
+}
+
+// Exact but for what float cannot decide: RayOracle::agree.
+TEST(Bvh, HitsAreEmbrees) {
+    const std::vector<TestMesh> meshes = all_meshes();
+    for (const TestMesh& mesh : meshes) {
+        const Bvh bvh = build_bvh(mesh.positions);
+        const RayOracle oracle(mesh);
+        for (const Aim aim : aims)
+            in_batches(
+                "WAVEPATH_HIT_RAYS", meshes.size() * aims.size(),
+                [&](std::size_t count, std::mt19937& random) {
+                    const std::vector<TestRay> rays = make_rays(mesh, aim, false, count, random);
+                    const std::vector<TestHit> ours = closest(bvh, rays);
+                    for (std::size_t i = 0; i < count; ++i) {
+                        const TestHit theirs = oracle.closest(rays[i]);
+                        ASSERT_TRUE(oracle.agree(rays[i], ours[i], theirs))
+                            << mesh.name << ", aim " << static_cast<int>(aim) << ", "
+                            << text_of(rays[i]) << ": triangle " << ours[i].primitive << " at "
+                            << ours[i].t << ", Embree " << theirs.primitive << " at " << theirs.t;
+                    }
+                });
+    }
+}
+
+// Exact: not one ray leaves a closed mesh unseen (ground truth 5.4).
+TEST(Bvh, WatertightFromInside) {
+    const std::vector<TestMesh> meshes{box_mesh(), sphere_mesh(12, 20), sphere_mesh(100, 100)};
+    for (const TestMesh& mesh : meshes) {
+        const Bvh bvh = build_bvh(mesh.positions);
+        for (const Aim aim : aims)
+            in_batches(
+                "WAVEPATH_INSIDE_RAYS", meshes.size() * aims.size(),
+                [&](std::size_t count, std::mt19937& random) {
+                    const std::vector<TestRay> rays = make_rays(mesh, aim, true, count, random);
+                    const std::vector<TestHit> ours = closest(bvh, rays);
+                    for (std::size_t i = 0; i < count; ++i)
+                        ASSERT_GE(ours[i].primitive, 0)
+                            << mesh.name << ", aim " << static_cast<int>(aim) << ", "
+                            << text_of(rays[i]);
+                });
+    }
+}
+
+// Where triangles coincide the lowest id is hit, and another order of the triangles, which makes
+// another tree, changes no distance.
+TEST(Bvh, OrderOfTheTreeDecidesNothing) {
+    for (const TestMesh& mesh : {room_mesh(), soup_mesh(5000)}) {
+        const TestMesh repeated = repeated_mesh(mesh, 3);
+        std::vector<std::size_t> order(repeated.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::mt19937 random(3);
+        std::shuffle(order.begin(), order.end(), random);
+        TestMesh shuffled{"shuffled", {}, false};
+        for (const std::size_t i : order)
+            shuffled.positions.insert(
+                shuffled.positions.end(),
+                repeated.positions.begin() + static_cast<std::ptrdiff_t>(9 * i),
+                repeated.positions.begin() + static_cast<std::ptrdiff_t>(9 * i + 9));
+        for (const Aim aim : aims) {
+            const std::vector<TestRay> rays = make_rays(mesh, aim, false, scaled(20'000), random);
+            const std::vector<TestHit> plain = closest(build_bvh(mesh.positions), rays);
+            const std::vector<TestHit> copies = closest(build_bvh(repeated.positions), rays);
+            const std::vector<TestHit> mixed = closest(build_bvh(shuffled.positions), rays);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                ASSERT_EQ(copies[i].primitive, plain[i].primitive) << text_of(rays[i]);
+                ASSERT_EQ(copies[i].t, plain[i].t) << text_of(rays[i]);
+                ASSERT_EQ(mixed[i].t, plain[i].t) << text_of(rays[i]);
+            }
+        }
+    }
+}
+
+// Any hit is true exactly where a closest hit exists, up to t_max and no further.
+TEST(Bvh, AnyHitAgreesWithClosestHit) {
+    for (const TestMesh& mesh : {room_mesh(), soup_mesh(5000)}) {
+        const Bvh bvh = build_bvh(mesh.positions);
+        std::mt19937 random(4);
+        for (const Aim aim : aims) {
+            std::vector<TestRay> rays = make_rays(mesh, aim, false, scaled(30'000), random);
+            const std::vector<TestHit> unbounded = closest(bvh, rays);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const float t = unbounded[i].t;
+                const std::array<float, 5> ends{
+                    0.5F * t, std::nextafter(t, 0.0F), t, std::nextafter(t, 10.0F * t), 0.0F};
+                rays[i].t_max = ends[i % ends.size()];
+            }
+            const std::vector<TestHit> hits = closest(bvh, rays);
+            const std::vector<cl_int> blocked = any(bvh, rays);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                ASSERT_EQ(blocked[i] != 0, hits[i].primitive >= 0)
+                    << text_of(rays[i]) << " to " << rays[i].t_max;
+                ASSERT_EQ(
+                    blocked[i] != 0, unbounded[i].primitive >= 0 && unbounded[i].t < rays[i].t_max)
+                    << text_of(rays[i]) << " to " << rays[i].t_max;
+            }
+        }
+    }
+}
+
+// Rays that mean nothing end, and hit nothing but what is there.
+TEST(Bvh, DegenerateRaysEnd) {
+    const Bvh bvh = build_bvh(room_mesh().positions);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float inf = std::numeric_limits<float>::infinity();
+    std::vector<TestRay> rays;
+    for (const float x : {nan, inf, 0.0F, 1e-30F, 1e30F}) {
+        rays.push_back({{x, 0, 0}, {1, 0, 0}, inf});
+        rays.push_back({{0, 0, 0}, {x, 0, 0}, inf});
+        rays.push_back({{0, 0, 0}, {x, x, x}, inf});
+        rays.push_back({{0, 0, 0}, {1, 0, 0}, x});
+    }
+    for (const TestHit& hit : closest(bvh, rays)) {
+        EXPECT_GE(hit.primitive, -1);
+        EXPECT_LT(hit.primitive, 36);
+    }
+    EXPECT_EQ(any(bvh, rays).size(), rays.size());
+    const Bvh empty = build_bvh({});
+    for (const TestHit& hit : closest(empty, rays)) EXPECT_EQ(hit.primitive, -1);
+}
+
+}  // namespace
+}  // namespace wavepath

@@ -1,0 +1,169 @@
+#include "support/ray_oracle.h"
+
+#include "scene/embree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace wavepath {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point minus(const Point& a, const Point& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Point widened(const std::array<float, 3>& p) {
+    return {p[0], p[1], p[2]};
+}
+
+Point corner(const TestMesh& mesh, std::size_t triangle, std::size_t corner) {
+    const float* p = &mesh.positions[9 * triangle + 3 * corner];
+    return {p[0], p[1], p[2]};
+}
+
+// Of the line o + t d from the segment a b.
+double line_segment_distance(const Point& o, const Point& d, const Point& a, const Point& b) {
+    const Point e = minus(b, a);
+    const Point r = minus(a, o);
+    const double dd = dot(d, d);
+    // Both without their part along d; then the nearest point of the segment to the origin.
+    Point e_across{};
+    Point r_across{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        e_across[k] = e[k] - d[k] * dot(e, d) / dd;
+        r_across[k] = r[k] - d[k] * dot(r, d) / dd;
+    }
+    const double ee = dot(e_across, e_across);
+    const double s = ee > 0 ? std::clamp(-dot(r_across, e_across) / ee, 0.0, 1.0) : 0.0;
+    Point nearest{};
+    for (std::size_t k = 0; k < 3; ++k) nearest[k] = r_across[k] + s * e_across[k];
+    return std::sqrt(dot(nearest, nearest));
+}
+
+std::array<float, 3> unit_vector(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    std::array<float, 3> v{};
+    float length = 0;
+    do {
+        for (float& x : v) x = normal(random);
+        length = std::hypot(v[0], v[1], v[2]);
+    } while (length < 1e-3F);
+    for (float& x : v) x /= length;
+    return v;
+}
+
+}  // namespace
+
+RayOracle::RayOracle(const TestMesh& mesh) : mesh_(mesh) {
+    const std::shared_ptr<RTCDeviceTy> device(rtcNewDevice("threads=1"), rtcReleaseDevice);
+    scene_ = std::shared_ptr<RTCSceneTy>(rtcNewScene(device.get()), rtcReleaseScene);
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* vertices = rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * mesh.size());
+    std::memcpy(vertices, mesh.positions.data(), mesh.positions.size() * sizeof(float));
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.size()));
+    for (unsigned i = 0; i < 3 * mesh.size(); ++i) indices[i] = i;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_.get());
+}
+
+TestHit RayOracle::closest(const TestRay& ray) const {
+    RTCRayHit query{};
+    query.ray.org_x = ray.origin[0];
+    query.ray.org_y = ray.origin[1];
+    query.ray.org_z = ray.origin[2];
+    query.ray.dir_x = ray.direction[0];
+    query.ray.dir_y = ray.direction[1];
+    query.ray.dir_z = ray.direction[2];
+    query.ray.tfar = ray.t_max;
+    query.ray.mask = ~0U;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene_.get(), &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene_.get(), &context, &query);
+#endif
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {ray.t_max, 0, 0, -1};
+    return {query.ray.tfar, query.hit.u, query.hit.v, static_cast<int>(query.hit.primID)};
+}
+
+Point RayOracle::point_of(const TestHit& hit) const {
+    const auto triangle = static_cast<std::size_t>(hit.primitive);
+    const Point a = corner(mesh_, triangle, 0);
+    const Point b = corner(mesh_, triangle, 1);
+    const Point c = corner(mesh_, triangle, 2);
+    const double u = hit.u;
+    const double v = hit.v;
+    Point p{};
+    for (std::size_t k = 0; k < 3; ++k) p[k] = (1 - u - v) * a[k] + u * b[k] + v * c[k];
+    return p;
+}
+
+double RayOracle::edge_distance(const TestRay& ray, int primitive) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto triangle = static_cast<std::size_t>(primitive);
+        least = std::min(
+            least, line_segment_distance(
+                       widened(ray.origin), widened(ray.direction), corner(mesh_, triangle, k),
+                       corner(mesh_, triangle, (k + 1) % 3)));
+    }
+    return least;
+}
+
+bool RayOracle::agree(const TestRay& ray, const TestHit& ours, const TestHit& theirs) const {
+    if (ours.primitive == theirs.primitive) return true;
+    if (ours.primitive >= 0 && theirs.primitive >= 0) {
+        const Point apart = minus(point_of(ours), point_of(theirs));
+        if (std::sqrt(dot(apart, apart)) <= 1e-5) return true;
+    }
+    const bool stops_first = theirs.primitive < 0 || (ours.primitive >= 0 && ours.t < theirs.t);
+    return edge_distance(ray, stops_first ? ours.primitive : theirs.primitive) <= 1e-6;
+}
+
+std::vector<TestRay> make_rays(
+    const TestMesh& mesh, Aim aim, bool from_inside, std::size_t count, std::mt19937& random) {
+    std::uniform_int_distribution<std::size_t> any_triangle(0, mesh.size() - 1);
+    std::uniform_int_distribution<std::size_t> any_corner(0, 2);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    std::vector<TestRay> rays(count);
+    for (TestRay& ray : rays) {
+        for (float& x : ray.origin) x = (from_inside ? 0.1F : 1.5F) * uniform(random);
+        ray.t_max = std::numeric_limits<float>::infinity();
+        const std::size_t triangle = any_triangle(random);
+        const std::size_t k = any_corner(random);
+        const Point a = corner(mesh, triangle, k);
+        const Point b = corner(mesh, triangle, (k + 1) % 3);
+        if (aim == Aim::random) ray.direction = unit_vector(random);
+        if (aim == Aim::axis_parallel) {
+            // Half of them start in the plane of a corner, so that they run along boxes' faces.
+            const std::size_t axis = any_corner(random);
+            ray.direction = {0.0F, -0.0F, 0.0F};
+            ray.direction[axis] = uniform(random) < 0 ? -1.0F : 1.0F;
+            if (!from_inside && uniform(random) < 0)
+                ray.origin[(axis + 1) % 3] = static_cast<float>(a[(axis + 1) % 3]);
+        }
+        if (aim == Aim::edge || aim == Aim::vertex) {
+            const double s =
+                aim == Aim::vertex ? 0 : 0.5 + 0.5 * static_cast<double>(uniform(random));
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                ray.direction[axis] = static_cast<float>(
+                    a[axis] + s * (b[axis] - a[axis]) - static_cast<double>(ray.origin[axis]));
+        }
+    }
+    return rays;
+}
+
+}  // namespace wavepath
