@@ -1,4 +1,5 @@
-// The one exception of the program: says what is wrong, where, and what to do. Caught once, in main.
+// The one exception of the program: says what is wrong, where, and what to do. Caught once, in
+// main.
 #pragma once
 
 #include <fmt/format.h>

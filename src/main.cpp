@@ -39,22 +39,29 @@ int main(int argc, char** argv) {
     std::string completion;
     bool manual = false;
     app.add_flag("--man", manual, "Print the manual page")->group("");
-    app.add_option("--completion", completion, "Print the completion script of a shell")->check(CLI::IsMember({"bash"}))->group("");
+    app.add_option("--completion", completion, "Print the completion script of a shell")
+        ->check(CLI::IsMember({"bash"}))
+        ->group("");
     wavepath::add_render_command(app);
     wavepath::add_devices_command(app);
     wavepath::add_profile_command(app);
     try {
         wavepath::prepare_environment();
         app.parse(argc, argv);
-        if (manual) std::fputs(wavepath::man_page(app).c_str(), stdout);
-        else if (!completion.empty()) std::fputs(wavepath::bash_completion(app).c_str(), stdout);
-        else if (app.get_subcommands().empty()) std::fputs(app.help().c_str(), stdout);
+        if (manual)
+            std::fputs(wavepath::man_page(app).c_str(), stdout);
+        else if (!completion.empty())
+            std::fputs(wavepath::bash_completion(app).c_str(), stdout);
+        else if (app.get_subcommands().empty())
+            std::fputs(app.help().c_str(), stdout);
     } catch (const CLI::ParseError& error) {
         return usage_error(app, error);
     } catch (const wavepath::Interrupted&) {
         return exit_interrupted;
     } catch (const cl::Error& error) {
-        spdlog::error("OpenCL: {} failed with code {}; `wavepath devices` tells what this device can do", error.what(), error.err());
+        spdlog::error(
+            "OpenCL: {} failed with code {}; `wavepath devices` tells what this device can do",
+            error.what(), error.err());
         return exit_failure;
     } catch (const std::exception& error) {
         spdlog::error("{}", error.what());

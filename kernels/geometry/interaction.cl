@@ -11,17 +11,17 @@
 #define TRIANGLE_COLORS (TRIANGLE_ATTRIBUTES + 9 * HAS_VERTEX_NORMALS)
 #define TRIANGLE_FLOATS (TRIANGLE_ATTRIBUTES + 9 * HAS_VERTEX_NORMALS + 9 * HAS_VERTEX_COLORS)
 
-// How far a ray starts off its surface, along the geometric normal. The scene is normalised, so one number serves all:
-// hit points from barycentrics are right to 1e-7, a tenth of this.
+// How far a ray starts off its surface, along the geometric normal. The scene is normalised, so one
+// number serves all: hit points from barycentrics are right to 1e-7, a tenth of this.
 #define RAY_OFFSET 0x1p-20f
 
 typedef struct {
-    Vec3 p;        // position [normalised]
-    Vec3 ng;       // geometric normal, unit, on the viewer's side
-    Vec3 n;        // shading normal, unit, on the viewer's side
-    Vec3 base;     // base colour [1]
+    Vec3 p;     // position [normalised]
+    Vec3 ng;    // geometric normal, unit, on the viewer's side
+    Vec3 n;     // shading normal, unit, on the viewer's side
+    Vec3 base;  // base colour [1]
     int material;
-    uint light;    // row of the light table if it emits towards the viewer, else NO_LIGHT
+    uint light;  // row of the light table if it emits towards the viewer, else NO_LIGHT
 } Interaction;
 
 INLINE Vec3 triangle_corner(global const float* triangle, const int attribute, const int corner) {
@@ -30,14 +30,16 @@ INLINE Vec3 triangle_corner(global const float* triangle, const int attribute, c
         triangle[attribute + 3 * corner + 2]);
 }
 
-INLINE Vec3 interpolate(global const float* triangle, const int attribute, const float u, const float v) {
+INLINE Vec3
+interpolate(global const float* triangle, const int attribute, const float u, const float v) {
     const Vec3 a = triangle_corner(triangle, attribute, 0);
     const Vec3 b = triangle_corner(triangle, attribute, 1);
     const Vec3 c = triangle_corner(triangle, attribute, 2);
     return madd3(madd3(scale3(a, 1.0f - u - v), b, u), c, v);
 }
 
-// Normal of a triangle, not unit: length = twice the area; towards whom its corners run counter-clockwise.
+// Normal of a triangle, not unit: length = twice the area; towards whom its corners run
+// counter-clockwise.
 INLINE Vec3 triangle_cross(global const float* triangle) {
     const Vec3 a = triangle_corner(triangle, TRIANGLE_CORNERS, 0);
     return cross3(
@@ -64,7 +66,8 @@ INLINE Interaction find_interaction(
     if (HAS_VERTEX_NORMALS) {
         const Vec3 sum = interpolate(triangle, TRIANGLE_NORMALS, u, v);
         const Vec3 smooth = scale3(normalize3(sum), front ? 1.0f : -1.0f);
-        // A shading normal that the viewer sees from behind would reflect nothing: there the face's own normal serves.
+        // A shading normal that the viewer sees from behind would reflect nothing: there the face's
+        // own normal serves.
         r.n = select3(dot3(smooth, direction) < 0.0f && dot3(smooth, r.ng) > 0.0f, smooth, r.ng);
     }
     r.base = vec3(material->base_r, material->base_g, material->base_b);
@@ -75,11 +78,15 @@ INLINE Interaction find_interaction(
 
 // The lobes of slot `slot`'s surface.
 INLINE Surface load_surface(
-    global const DeviceMaterial* materials, global const float* surfaces, const size_t stride, const size_t slot) {
+    global const DeviceMaterial* materials,
+    global const float* surfaces,
+    const size_t stride,
+    const size_t slot) {
     Surface s;
     s.base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
     if (HAS_SPECULAR) {
-        global const DeviceMaterial* material = materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
+        global const DeviceMaterial* material =
+            materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
         s.f0 = vec3(material->f0_r, material->f0_g, material->f0_b);
         s.metallic = material->metallic;
         s.specular = material->specular;
@@ -88,7 +95,8 @@ INLINE Surface load_surface(
     return s;
 }
 
-INLINE Vec3 load_shading_normal(global const float* surfaces, const size_t stride, const size_t slot) {
+INLINE Vec3
+load_shading_normal(global const float* surfaces, const size_t stride, const size_t slot) {
     return load3(PLANE(surfaces, HAS_VERTEX_NORMALS ? SURFACE_N_X : SURFACE_NG_X), stride, slot);
 }
 

@@ -1,4 +1,5 @@
-// Emissive triangles, sampled uniformly by area (notes 5: sourceArea * visible * G * emittedRadiance).
+// Emissive triangles, sampled uniformly by area (notes 5: sourceArea * visible * G *
+// emittedRadiance).
 #pragma once
 
 #include "geometry/interaction.cl"
@@ -10,7 +11,8 @@ typedef struct {
     Vec3 p;         // end of the connection; for lights at infinity far outside the scene
     Vec3 wi;        // towards it, unit
     Vec3 radiance;  // divided by the density: L_e / pdf_w, or intensity terms of a punctual light
-    float pdf_w;    // [1/sr] of the point, light choice included; PDF_CERTAIN: a bsdf sample cannot find this light
+    float pdf_w;    // [1/sr] of the point, light choice included; PDF_CERTAIN: a bsdf sample cannot
+                    // find this light
 } LightSample;
 
 INLINE LightSample area_light_sample(
@@ -35,11 +37,13 @@ INLINE LightSample area_light_sample(
     // The connection ends just before the light, on the side it is seen from.
     s.p = leave(point, scale3(face, cos_front > 0.0f ? 1.0f : -1.0f));
     s.radiance = scale3(
-        vec3(light->intensity_r, light->intensity_g, light->intensity_b), lit ? 1.0f / s.pdf_w : 0.0f);
+        vec3(light->intensity_r, light->intensity_g, light->intensity_b),
+        lit ? 1.0f / s.pdf_w : 0.0f);
     return s;
 }
 
 // pdf_w [1/sr] with which light sampling would have chosen the point that a bsdf ray met.
-INLINE float area_light_pdf_w(global const DeviceLight* light, const float distance, const float cos_light) {
+INLINE float area_light_pdf_w(
+    global const DeviceLight* light, const float distance, const float cos_light) {
     return pdf_a_to_w(light->pmf / light->area, distance * distance, cos_light);
 }

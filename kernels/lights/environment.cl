@@ -1,4 +1,5 @@
-// Radiance from infinity: constant, or a latitude-longitude map with u = atan2(z, x) / 2 pi + 1/2, v = acos(y) / pi.
+// Radiance from infinity: constant, or a latitude-longitude map with u = atan2(z, x) / 2 pi + 1/2,
+// v = acos(y) / pi.
 #pragma once
 
 #include "lights/light_choice.cl"
@@ -18,8 +19,8 @@ INLINE Vec3 environment_texel(
 }
 
 // Bilinear between texel centres, wrapped in u.
-INLINE Vec3 environment_eval(
-    global const EnvironmentEntry* map, const RenderParams* params, const Vec3 d) {
+INLINE Vec3
+environment_eval(global const EnvironmentEntry* map, const RenderParams* params, const Vec3 d) {
     const Vec3 scale = vec3(params->environment_r, params->environment_g, params->environment_b);
     if (!HAS_ENVIRONMENT_MAP) return scale;
     const float x = (atan2_turns(d.z, d.x) + 0.5f) * (float)params->environment_width - 0.5f;
@@ -37,8 +38,8 @@ INLINE Vec3 environment_eval(
     return mul3(scale, madd3(scale3(top, 1.0f - fy), bottom, fy));
 }
 
-// pdf_w [1/sr] of environment_sample, without the choice of the light: uniform in (u, v) within a texel, so
-// pmf * width * height / (2 pi^2 sin theta) [Pharr, Jakob, Humphreys 2023, section 12.5].
+// pdf_w [1/sr] of environment_sample, without the choice of the light: uniform in (u, v) within a
+// texel, so pmf * width * height / (2 pi^2 sin theta) [Pharr, Jakob, Humphreys 2023, section 12.5].
 INLINE float environment_pdf_w(
     global const EnvironmentEntry* map, const RenderParams* params, const Vec3 d) {
     if (!HAS_ENVIRONMENT_MAP) return 0.25f * INV_PI_F;
@@ -62,7 +63,8 @@ INLINE Vec3 environment_sample(
     const int keep_row = row_rest < row_threshold;
     const uint row = keep_row ? row_entry : map[(int)row_entry].alias;
     // what is left of a number that fell below (above) the threshold is uniform again
-    const float fy = keep_row ? row_rest / row_threshold : (row_rest - row_threshold) / (1.0f - row_threshold);
+    const float fy =
+        keep_row ? row_rest / row_threshold : (row_rest - row_threshold) / (1.0f - row_threshold);
 
     global const EnvironmentEntry* texels = map + (int)(height + row * width);
     const uint column_entry = choice_entry(bits.v, width);

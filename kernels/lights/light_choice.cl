@@ -1,4 +1,5 @@
-// Choosing one entry of a discrete distribution: Walker's alias method with integer bits [Walker 1974; Vose 1991].
+// Choosing one entry of a discrete distribution: Walker's alias method with integer bits [Walker
+// 1974; Vose 1991].
 #pragma once
 
 #include "sampling/sobol.cl"

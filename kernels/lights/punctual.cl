@@ -19,12 +19,15 @@ INLINE LightSample punctual_sample(global const DeviceLight* light, const Vec3 f
     s.wi = select3(directional, scale3(shines, -1.0f), scale3(to_light, 1.0f / distance));
     s.p = madd3(from, s.wi, directional ? OUTSIDE_SCENE : distance);
 
-    // angular falloff of a spot, and the window that ends a range (both as the extension recommends)
-    const float cone = clamp(fma(-dot3(s.wi, shines), light->spot_scale, light->spot_offset), 0.0f, 1.0f);
+    // angular falloff of a spot, and the window that ends a range (both as the extension
+    // recommends)
+    const float cone =
+        clamp(fma(-dot3(s.wi, shines), light->spot_scale, light->spot_offset), 0.0f, 1.0f);
     const float reach = light->range > 0.0f ? distance / light->range : 0.0f;
     const float reach4 = reach * reach * reach * reach;
     const float window = clamp(1.0f - reach4, 0.0f, 1.0f);
-    const float falloff = directional ? 1.0f : (distance2 > 0.0f ? cone * cone * window / distance2 : 0.0f);
+    const float falloff =
+        directional ? 1.0f : (distance2 > 0.0f ? cone * cone * window / distance2 : 0.0f);
     s.radiance = scale3(intensity, falloff / light->pmf);
     return s;
 }

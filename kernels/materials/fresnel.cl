@@ -1,4 +1,5 @@
-// Schlick's approximation of Fresnel reflectance, as the glTF 2.0 specification prescribes (appendix B.3.4).
+// Schlick's approximation of Fresnel reflectance, as the glTF 2.0 specification prescribes
+// (appendix B.3.4).
 #pragma once
 
 #include "sampling/vector.cl"

@@ -1,14 +1,17 @@
-// Microfacet reflection with the GGX distribution and height-correlated Smith masking (glTF 2.0, appendix B.3.2).
-// Directions are in the shading frame, leaving the surface; m is the half-vector. alpha = roughness^2.
+// Microfacet reflection with the GGX distribution and height-correlated Smith masking (glTF 2.0,
+// appendix B.3.2). Directions are in the shading frame, leaving the surface; m is the half-vector.
+// alpha = roughness^2.
 #pragma once
 
 #include "sampling/warp.cl"
 #include "shared/inline.h"
 
-// Below this the lobe is a mirror: D loses its digits (relative error 8 % in single precision by the cosine form).
+// Below this the lobe is a mirror: D loses its digits (relative error 8 % in single precision by
+// the cosine form).
 #define MIRROR_ALPHA 1e-3f
 
-// D(m) [1/sr] [Walter 2007, eq. 33] with sin^2 taken from x and y: 1 - cos^2 cancels at small alpha.
+// D(m) [1/sr] [Walter 2007, eq. 33] with sin^2 taken from x and y: 1 - cos^2 cancels at small
+// alpha.
 INLINE float ggx_distribution(const Vec3 m, const float alpha) {
     const float alpha2 = alpha * alpha;
     const float d = fma(alpha2, m.z * m.z, fma(m.x, m.x, m.y * m.y));
@@ -40,5 +43,6 @@ INLINE Vec3 ggx_sample(const Vec3 wo, const float alpha, const Sample2 u) {
     const float r = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
     const SineCosine phi = sincos_2pi(u.v);
     const Vec3 h = add3(vec3(r * phi.cosine, r * phi.sine, z), stretched);
-    return normalize3(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-18f)));  // whose square is a normal number
+    return normalize3(
+        vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-18f)));  // whose square is a normal number
 }

@@ -1,7 +1,8 @@
 // glTF 2.0 metallic-roughness (appendix B) with KHR_materials_ior and KHR_materials_specular:
-//   f_r = D V [(1 - metallic) specular F + metallic F_metal] + (1 - metallic) (1 - specular max F) base / pi
-// The dielectric's layering gains energy at grazing angles by specification (the appendix says so itself).
-// Directions are in the shading frame, leaving the surface, with wo.z > 0.
+//   f_r = D V [(1 - metallic) specular F + metallic F_metal] + (1 - metallic) (1 - specular max F)
+//   base / pi
+// The dielectric's layering gains energy at grazing angles by specification (the appendix says so
+// itself). Directions are in the shading frame, leaving the surface, with wo.z > 0.
 #pragma once
 
 #include "materials/fresnel.cl"
@@ -45,7 +46,8 @@ INLINE int gltf_is_mirror(const Surface s) {
     return HAS_SPECULAR && s.alpha < MIRROR_ALPHA;
 }
 
-// Probability that sampling takes the specular lobe: its share of what is reflected at normal-facing facets.
+// Probability that sampling takes the specular lobe: its share of what is reflected at
+// normal-facing facets.
 INLINE float gltf_specular_pmf(const Surface s, const Vec3 wo) {
     if (!HAS_SPECULAR) return 0.0f;
     const Reflectance r = gltf_reflectance(s, wo.z);
@@ -71,14 +73,15 @@ INLINE float gltf_pdf_w(const Surface s, const Vec3 wo, const Vec3 wi) {
     if (!HAS_SPECULAR) return lambert_pdf_w(wi);
     const float pmf = gltf_specular_pmf(s, wo);
     const float ggx = gltf_is_mirror(s) ? 0.0f : ggx_pdf_w(wo, normalize3(add3(wo, wi)), s.alpha);
-    const float pdf_w = pmf > 0.0f ? fma(pmf, ggx, (1.0f - pmf) * lambert_pdf_w(wi)) : lambert_pdf_w(wi);
+    const float pdf_w =
+        pmf > 0.0f ? fma(pmf, ggx, (1.0f - pmf) * lambert_pdf_w(wi)) : lambert_pdf_w(wi);
     return wi.z > 0.0f ? pdf_w : 0.0f;
 }
 
 typedef struct {
     Vec3 wi;
-    Vec3 weight;   // f_r cos / pdf_w; 0: absorbed
-    float pdf_w;   // [1/sr], or PDF_CERTAIN from a delta
+    Vec3 weight;  // f_r cos / pdf_w; 0: absorbed
+    float pdf_w;  // [1/sr], or PDF_CERTAIN from a delta
 } BsdfSample;
 
 INLINE BsdfSample gltf_sample(const Surface s, const Vec3 wo, const Sample2 u, const float choice) {
@@ -92,7 +95,8 @@ INLINE BsdfSample gltf_sample(const Surface s, const Vec3 wo, const Sample2 u, c
     const float pmf = gltf_specular_pmf(s, wo);
     const int specular = choice < pmf;
     const int mirror = gltf_is_mirror(s);
-    const Vec3 m = select3(mirror, vec3(0.0f, 0.0f, 1.0f), ggx_sample(wo, max(s.alpha, MIRROR_ALPHA), u));
+    const Vec3 m =
+        select3(mirror, vec3(0.0f, 0.0f, 1.0f), ggx_sample(wo, max(s.alpha, MIRROR_ALPHA), u));
     const Vec3 reflected = sub3(scale3(m, 2.0f * dot3(wo, m)), wo);
     r.wi = select3(specular, reflected, r.wi);
 

@@ -1,4 +1,5 @@
-// Which random numbers a decision takes: a pair of dimensions for each, SCATTERING_PAIRS a scattering.
+// Which random numbers a decision takes: a pair of dimensions for each, SCATTERING_PAIRS a
+// scattering.
 #pragma once
 
 #include "sampling/sobol.cl"
@@ -14,11 +15,13 @@
 #define PAIR_ROULETTE 3u     // survival (first of the pair)
 #define SCATTERING_PAIRS 4u
 
-// Beyond these scatterings points are independent: stratification over so many dimensions buys nothing.
+// Beyond these scatterings points are independent: stratification over so many dimensions buys
+// nothing.
 #define SOBOL_SCATTERINGS 8u
 
 // `seed` and `reversed_index`: planes ID_SEED and ID_INDEX.
-INLINE Bits2 dimension_pair(const uint seed, const uint reversed_index, const uint dimension, const int low) {
+INLINE Bits2
+dimension_pair(const uint seed, const uint reversed_index, const uint dimension, const int low) {
     const uint pair_seed = hash_pair(seed, dimension);
     if (!SAMPLER_SOBOL) return independent_pair(reversed_index, pair_seed);
     const Bits2 sobol = sobol_pair(reversed_index, pair_seed);
@@ -31,7 +34,11 @@ INLINE Bits2 dimension_pair(const uint seed, const uint reversed_index, const ui
 
 // `branch`: plane ID_BRANCH, so that the children of a branch vertex differ.
 INLINE Bits2 scattering_pair(
-    const uint seed, const uint reversed_index, const uint branch, const uint scattering, const uint pair) {
+    const uint seed,
+    const uint reversed_index,
+    const uint branch,
+    const uint scattering,
+    const uint pair) {
     const uint dimension = PAIR_FIRST + scattering * SCATTERING_PAIRS + pair;
     return dimension_pair(
         seed, reversed_index, HAS_SPLITS ? hash_pair(dimension, branch) : dimension,

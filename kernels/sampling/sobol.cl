@@ -1,5 +1,5 @@
-// Owen-scrambled Sobol points, two dimensions at a time, each pair with its own shuffle of the sequence
-// (Burley 2020, "Practical hash-based Owen scrambling"), in straight-line integer code.
+// Owen-scrambled Sobol points, two dimensions at a time, each pair with its own shuffle of the
+// sequence (Burley 2020, "Practical hash-based Owen scrambling"), in straight-line integer code.
 #pragma once
 
 #include "sampling/rng.cl"
@@ -13,8 +13,8 @@ INLINE uint reverse_bits_32(uint x) {
     return (x >> 16) | (x << 16);
 }
 
-// A permutation in which every bit depends on lower bits alone: an Owen scramble of the bit-reversed word
-// (Laine & Karras 2011; constants of Vegdahl 2021).
+// A permutation in which every bit depends on lower bits alone: an Owen scramble of the
+// bit-reversed word (Laine & Karras 2011; constants of Vegdahl 2021).
 INLINE uint scramble_upwards(uint x, const uint seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -24,8 +24,8 @@ INLINE uint scramble_upwards(uint x, const uint seed) {
     return x;
 }
 
-// Second Sobol dimension of `index`, bits reversed: bit j is the parity of the index bits k that contain j, since its
-// generator matrix is Pascal's triangle modulo 2 (Sobol 1967; Lucas' theorem).
+// Second Sobol dimension of `index`, bits reversed: bit j is the parity of the index bits k that
+// contain j, since its generator matrix is Pascal's triangle modulo 2 (Sobol 1967; Lucas' theorem).
 INLINE uint sobol_second(uint x) {
     x ^= (x >> 1) & 0x55555555u;
     x ^= (x >> 2) & 0x33333333u;

@@ -1,4 +1,5 @@
-// Three floats as a struct of scalars: PoCL vectorises these across work-items, float3 values it does not.
+// Three floats as a struct of scalars: PoCL vectorises these across work-items, float3 values it
+// does not.
 #pragma once
 
 #include "shared/inline.h"
@@ -57,8 +58,9 @@ INLINE Vec3 select3(const int condition, const Vec3 yes, const Vec3 no) {
     return vec3(condition ? yes.x : no.x, condition ? yes.y : no.y, condition ? yes.z : no.z);
 }
 
-// Plane k of a group of planes (shared/path.h). Every kernel reads `stride` and its other parameters before its guard:
-// behind it the load would be conditional, and PoCL would gather what lies side by side.
+// Plane k of a group of planes (shared/path.h). Every kernel reads `stride` and its other
+// parameters before its guard: behind it the load would be conditional, and PoCL would gather what
+// lies side by side.
 #define PLANE(group, k) ((group) + (k)*stride)
 
 INLINE Vec3 load3(global const float* plane, const size_t stride, const size_t slot) {
@@ -71,7 +73,8 @@ INLINE void store3(global float* plane, const size_t stride, const size_t slot, 
     plane[2 * stride + slot] = v.z;
 }
 
-// An orthonormal frame around a unit normal (Duff et al. 2017), branch-free and defined at n.z = -1.
+// An orthonormal frame around a unit normal (Duff et al. 2017), branch-free and defined at n.z =
+// -1.
 typedef struct {
     Vec3 s, t, n;
 } Frame;

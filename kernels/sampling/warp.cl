@@ -1,5 +1,5 @@
-// Maps from the unit square, and the elementary functions they need: polynomials of our own, since the builtins block
-// vectorisation on PoCL and differ between implementations.
+// Maps from the unit square, and the elementary functions they need: polynomials of our own, since
+// the builtins block vectorisation on PoCL and differ between implementations.
 #pragma once
 
 #include "sampling/sobol.cl"
@@ -13,8 +13,8 @@ typedef struct {
     float sine, cosine;
 } SineCosine;
 
-// sin and cos of 2 pi u, u in [-1, 1]; absolute error below 2e-7. Minimax polynomials on [-1/8, 1/8] turns after
-// reduction to the nearest quarter turn.
+// sin and cos of 2 pi u, u in [-1, 1]; absolute error below 2e-7. Minimax polynomials on [-1/8,
+// 1/8] turns after reduction to the nearest quarter turn.
 INLINE SineCosine sincos_2pi(const float u) {
     const float quarters = u * 4.0f;
     const int k = (int)(quarters + (quarters >= 0.0f ? 0.5f : -0.5f));
@@ -35,7 +35,8 @@ INLINE SineCosine sincos_2pi(const float u) {
     return r;
 }
 
-// atan2(y, x) / (2 pi) in (-1/2, 1/2]; absolute error below 1e-7 turns. Abramowitz & Stegun 4.4.49 refitted.
+// atan2(y, x) / (2 pi) in (-1/2, 1/2]; absolute error below 1e-7 turns. Abramowitz & Stegun 4.4.49
+// refitted.
 INLINE float atan2_turns(const float y, const float x) {
     const float ax = fabs(x);
     const float ay = fabs(y);
@@ -54,12 +55,14 @@ INLINE float atan2_turns(const float y, const float x) {
     return y < 0.0f ? -angle : angle;
 }
 
-// acos(z) / pi in [0, 1]; absolute error below 2e-7. The product keeps the digits of 1 - z^2 near both ends.
+// acos(z) / pi in [0, 1]; absolute error below 2e-7. The product keeps the digits of 1 - z^2 near
+// both ends.
 INLINE float acos_half_turns(const float z) {
     return 2.0f * atan2_turns(sqrt(max(0.0f, (1.0f - z) * (1.0f + z))), z);
 }
 
-// Cosine-distributed direction about +z, pdf_w = cos / pi: uniform in projected solid angle (notes 3, p_mu = 1/pi).
+// Cosine-distributed direction about +z, pdf_w = cos / pi: uniform in projected solid angle (notes
+// 3, p_mu = 1/pi).
 INLINE Vec3 sample_cosine(const Sample2 u) {
     const float r = sqrt(u.u);
     const SineCosine phi = sincos_2pi(u.v);

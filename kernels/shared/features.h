@@ -1,6 +1,7 @@
-// What the scene and the method need. The program that is built for a render defines each of these as 0 or 1 ahead of
-// this file; kernels test them with a plain `if`, so both branches are always parsed and the dead one is removed.
-// Here every feature is on: the full set, as the linter builds it.
+// What the scene and the method need. The program that is built for a render defines each of these
+// as 0 or 1 ahead of this file; kernels test them with a plain `if`, so both branches are always
+// parsed and the dead one is removed. Here every feature is on: the full set, as the linter builds
+// it.
 #ifndef WAVEPATH_FEATURES_H
 #define WAVEPATH_FEATURES_H
 

@@ -5,12 +5,12 @@
 #include "shared/path.h"
 
 enum FilmPlane {
-    FILM_SUM,                             // compensated sums of the SUM_PLANES of path.h
-    FILM_LOST = FILM_SUM + SUM_PLANES,    // and what rounding took from them
+    FILM_SUM,                                 // compensated sums of the SUM_PLANES of path.h
+    FILM_LOST = FILM_SUM + SUM_PLANES,        // and what rounding took from them
     FILM_BATCH_SUM = FILM_LOST + SUM_PLANES,  // radiance of the batch under way
     FILM_BATCH_LOST = FILM_BATCH_SUM + 3,
-    FILM_MEAN = FILM_BATCH_LOST + 3,      // of the batches closed so far
-    FILM_DEVIATION = FILM_MEAN + 3,       // sum over batches of samples * (batch mean - mean)^2
+    FILM_MEAN = FILM_BATCH_LOST + 3,  // of the batches closed so far
+    FILM_DEVIATION = FILM_MEAN + 3,   // sum over batches of samples * (batch mean - mean)^2
     FILM_PLANES = FILM_DEVIATION + 3
 };
 

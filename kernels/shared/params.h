@@ -9,36 +9,37 @@ typedef struct {
     shared_float camera_x, camera_y, camera_z;  // [normalised] perspective: the eye
     shared_float metres;                        // one unit of the normalised scene [m]
     shared_float corner_x, corner_y, corner_z;
-    shared_uint orthographic;                   // 1: the corner is a point, all rays run along camera_*
-    shared_float right_x, right_y, right_z;     // a pixel's step
+    shared_uint orthographic;  // 1: the corner is a point, all rays run along camera_*
+    shared_float right_x, right_y, right_z;  // a pixel's step
     shared_uint seed;
     shared_float down_x, down_y, down_z;
-    shared_uint stride;                         // of the planes [slots]
+    shared_uint stride;  // of the planes [slots]
     // image and window
-    shared_uint width;                          // [pixels]
+    shared_uint width;  // [pixels]
     shared_uint height;
-    shared_uint window_pixels;                  // pixels of one pass of the window
-    shared_uint first_pixel;                    // of the window
-    shared_uint cells;                          // units of work in the window
-    shared_uint pool;                           // slots in use
-    shared_uint pixel_step;                     // pool mod window_pixels
-    shared_uint pass_step;                      // pool / window_pixels
+    shared_uint window_pixels;  // pixels of one pass of the window
+    shared_uint first_pixel;    // of the window
+    shared_uint cells;          // units of work in the window
+    shared_uint pool;           // slots in use
+    shared_uint pixel_step;     // pool mod window_pixels
+    shared_uint pass_step;      // pool / window_pixels
     // estimator
-    shared_uint max_scatterings;                // --termination depth:D, else MAX_SCATTERINGS
-    shared_uint roulette;                       // 0: none, 1: by throughput, 2: constant
-    shared_float survival;                      // [1] of constant roulette
-    shared_uint splits;                         // S directions from a surface point
-    shared_uint split_depth;                    // only the first vertices branch
+    shared_uint max_scatterings;  // --termination depth:D, else MAX_SCATTERINGS
+    shared_uint roulette;         // 0: none, 1: by throughput, 2: constant
+    shared_float survival;        // [1] of constant roulette
+    shared_uint splits;           // S directions from a surface point
+    shared_uint split_depth;      // only the first vertices branch
     shared_uint light_count;
     // environment
-    shared_uint environment_width;              // texels; 0: constant
+    shared_uint environment_width;  // texels; 0: constant
     shared_uint environment_height;
     shared_float environment_r, environment_g, environment_b;  // radiance, or the scale of the map
-    shared_float environment_pmf;               // of the light choice
+    shared_float environment_pmf;                              // of the light choice
 } RenderParams;
 SHARED_SIZE(RenderParams, 144);
 
-// One row of the sample plan: which samples of every pixel a pass takes, counted from the pixel's first.
+// One row of the sample plan: which samples of every pixel a pass takes, counted from the pixel's
+// first.
 typedef struct {
     shared_uint first_sample;
     shared_uint samples;

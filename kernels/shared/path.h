@@ -1,6 +1,7 @@
-// The state of a path, declared once: groups of planes, one float or uint a path slot. A group is one buffer; plane k of
-// slot s is group[k * stride + s]. A group that the scene or the method does not need is not allocated.
-// The slots in use are 0 .. n - 1, all of them: the queue of every stage is that range, so that planes are read in order.
+// The state of a path, declared once: groups of planes, one float or uint a path slot. A group is
+// one buffer; plane k of slot s is group[k * stride + s]. A group that the scene or the method does
+// not need is not allocated. The slots in use are 0 .. n - 1, all of them: the queue of every stage
+// is that range, so that planes are read in order.
 #ifndef WAVEPATH_PATH_H
 #define WAVEPATH_PATH_H
 
@@ -39,7 +40,8 @@ enum SurfacePlane {
     SURFACE_BASE_G,
     SURFACE_BASE_B,
     SURFACE_MATERIAL,  // (int bits)
-    SURFACE_LIGHT,     // (uint bits) row of the light table if it emits towards the viewer, else NO_LIGHT
+    SURFACE_LIGHT,     // (uint bits) row of the light table if it emits towards the viewer, else
+                       // NO_LIGHT
     SURFACE_N_X,       // shading normal, unit, on the viewer's side (only with HAS_VERTEX_NORMALS)
     SURFACE_N_Y,
     SURFACE_N_Z,
@@ -52,7 +54,8 @@ enum ThroughputPlane {
     THROUGHPUT_R,  // product of f cos / pdf so far [1]
     THROUGHPUT_G,
     THROUGHPUT_B,
-    THROUGHPUT_PDF,  // pdf_w of the last direction [1/sr]; PDF_CERTAIN after the camera or a delta lobe
+    THROUGHPUT_PDF,  // pdf_w of the last direction [1/sr]; PDF_CERTAIN after the camera or a delta
+                     // lobe
     THROUGHPUT_PLANES
 };
 #define PDF_CERTAIN (-1.0f)
@@ -76,7 +79,8 @@ enum RadiancePlane {
     RADIANCE_PLANES
 };
 #define SUM_PLANES (RADIANCE_PLANES - SUM_R)
-#define CELL_FLOATS 12  // SUM_PLANES and padding: the sums of one unit, side by side, since units end one by one
+#define CELL_FLOATS \
+    12  // SUM_PLANES and padding: the sums of one unit, side by side, since units end one by one
 
 // shadows: the pending connection to a light, at most one a slot
 enum ShadowPlane {
@@ -104,14 +108,14 @@ enum IdPlane {
     ID_INDEX,       // of the sample within its batch, bits reversed
     ID_SCATTERING,  // scatterings so far
     ID_NONFINITE,   // of the unit: count << 16 | first such sample + 1
-    ID_BRANCH,      // which child of its branch vertices this is (only with --splits, as are the next)
-    ID_STACK,       // branch vertices on the path's stack
+    ID_BRANCH,  // which child of its branch vertices this is (only with --splits, as are the next)
+    ID_STACK,   // branch vertices on the path's stack
     ID_PLANES
 };
 #define ID_PLANES_UNSPLIT ID_BRANCH
 
-// branches: a stack of branch vertices a slot, BRANCH_PLANES planes a level; level = scatterings before the vertex
-// (only with --splits)
+// branches: a stack of branch vertices a slot, BRANCH_PLANES planes a level; level = scatterings
+// before the vertex (only with --splits)
 enum BranchPlane {
     BRANCH_LEFT,       // (uint bits) children still to run
     BRANCH_ID,         // (uint bits) ID_BRANCH at the vertex
@@ -126,7 +130,8 @@ enum BranchPlane {
     BRANCH_B,
     BRANCH_PLANES
 };
-// In HIT_T: the hit is that of a branch vertex, to be left in another direction; it has been shaded before.
+// In HIT_T: the hit is that of a branch vertex, to be left in another direction; it has been shaded
+// before.
 #define T_RESUMED (-1.0f)
 
 #endif

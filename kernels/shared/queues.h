@@ -1,5 +1,5 @@
-// The queue of every stage is the range of slots in use. Slots refill as their paths end; once half of them have no work
-// left, the live ones are moved together (scatter_queue, move_paths).
+// The queue of every stage is the range of slots in use. Slots refill as their paths end; once half
+// of them have no work left, the live ones are moved together (scatter_queue, move_paths).
 #ifndef WAVEPATH_QUEUES_H
 #define WAVEPATH_QUEUES_H
 
@@ -12,7 +12,8 @@
 #define FATE_ENDED 2u      // its path is over
 #define FATE_CONNECTED 4u  // it traced a connection to a light
 
-#define FATE_RESUMED 8u    // it goes on at a branch vertex: no ray to trace (written by resume_branch)
+#define FATE_RESUMED \
+    8u  // it goes on at a branch vertex: no ray to trace (written by resume_branch)
 
 #define DEPTH_BINS 16                // path lengths counted apart: 0 .. 14 scatterings, and longer
 #define STATISTICS (DEPTH_BINS + 1)  // and connections traced

@@ -4,8 +4,8 @@
 
 #include "shared/cl_types.h"
 
-// Colours stand channel by channel: neighbouring r, g, b would be loaded as a vector by LLVM's SLP pass, and a kernel that
-// holds a vector of its own is not vectorised across work-items by PoCL.
+// Colours stand channel by channel: neighbouring r, g, b would be loaded as a vector by LLVM's SLP
+// pass, and a kernel that holds a vector of its own is not vectorised across work-items by PoCL.
 typedef struct {
     shared_float base_r;      // [1] baseColorFactor
     shared_float f0_r;        // [1] dielectric reflectance at normal incidence
@@ -14,18 +14,18 @@ typedef struct {
     shared_float base_g;
     shared_float f0_g;
     shared_float emission_g;
-    shared_float specular;    // [1] weight of the dielectric's specular layer
+    shared_float specular;  // [1] weight of the dielectric's specular layer
     shared_float base_b;
     shared_float f0_b;
     shared_float emission_b;
-    shared_float alpha;       // [1] roughness^2
+    shared_float alpha;        // [1] roughness^2
     shared_uint double_sided;  // emits from both faces
     shared_uint padding[3];
 } DeviceMaterial;
 SHARED_SIZE(DeviceMaterial, 64);
 
-// A triangle is TRIANGLE_FLOATS floats in scene order: these, then nine of normals and nine of colours if the scene has
-// any (shared/features.h).
+// A triangle is TRIANGLE_FLOATS floats in scene order: these, then nine of normals and nine of
+// colours if the scene has any (shared/features.h).
 #define TRIANGLE_MATERIAL 0  // (uint bits)
 #define TRIANGLE_LIGHT 1     // (uint bits) row of the light table, or NO_LIGHT
 #define TRIANGLE_CORNERS 2   // 3 x (x, y, z)
@@ -42,18 +42,18 @@ SHARED_SIZE(DeviceMaterial, 64);
 typedef struct {
     shared_float alias_threshold;  // [1] below: this light, else `alias`
     shared_uint alias;
-    shared_float pmf;              // [1] probability to be chosen
+    shared_float pmf;  // [1] probability to be chosen
     shared_uint kind;
-    shared_uint primitive;         // LIGHT_TRIANGLE: its triangle
-    shared_float area;             // LIGHT_TRIANGLE: [normalised^2]
-    shared_float range;            // LIGHT_POINT: [normalised] 0: unlimited
-    shared_float spot_scale;       // LIGHT_POINT: falloff = saturate(cos * scale + offset)^2
+    shared_uint primitive;    // LIGHT_TRIANGLE: its triangle
+    shared_float area;        // LIGHT_TRIANGLE: [normalised^2]
+    shared_float range;       // LIGHT_POINT: [normalised] 0: unlimited
+    shared_float spot_scale;  // LIGHT_POINT: falloff = saturate(cos * scale + offset)^2
     shared_float spot_offset;
-    shared_uint double_sided;      // LIGHT_TRIANGLE: emits from both faces
-    shared_float intensity_r;      // LIGHT_TRIANGLE: radiance; LIGHT_POINT: [W/sr] in units of the normalised scene;
-                                   // LIGHT_DIRECTIONAL: [W/m^2]
-    shared_float position_x;       // [normalised]
-    shared_float direction_x;      // the way it shines, unit
+    shared_uint double_sided;  // LIGHT_TRIANGLE: emits from both faces
+    shared_float intensity_r;  // LIGHT_TRIANGLE: radiance; LIGHT_POINT: [W/sr] in units of the
+                               // normalised scene; LIGHT_DIRECTIONAL: [W/m^2]
+    shared_float position_x;   // [normalised]
+    shared_float direction_x;  // the way it shines, unit
     shared_float intensity_g;
     shared_float position_y;
     shared_float direction_y;
@@ -64,11 +64,12 @@ typedef struct {
 } DeviceLight;
 SHARED_SIZE(DeviceLight, 80);
 
-// Environment map: one entry a row (its chance to be chosen), then one a texel (its chance within the row), row by row.
+// Environment map: one entry a row (its chance to be chosen), then one a texel (its chance within
+// the row), row by row.
 typedef struct {
     shared_float alias_threshold;
     shared_uint alias;
-    shared_float pmf;      // [1]
+    shared_float pmf;  // [1]
     shared_float padding;
     shared_float r, g, b;  // radiance
     shared_float padding2;

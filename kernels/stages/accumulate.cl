@@ -30,7 +30,8 @@ kernel void accumulate(
     const Vec3 before = load3(PLANE(radiances, SUM_R), stride, slot);
     store3(PLANE(radiances, SUM_R), stride, slot, select3(first, radiance, add3(before, radiance)));
 
-    const int finite = is_finite_bits(radiance.x) & is_finite_bits(radiance.y) & is_finite_bits(radiance.z);
+    const int finite =
+        is_finite_bits(radiance.x) & is_finite_bits(radiance.y) & is_finite_bits(radiance.z);
     const uint flags = first ? 0 : PLANE(ids, ID_NONFINITE)[slot];
     const uint counted = (flags + 0x10000u) | (flags == 0 ? sample + 1 : 0);
     PLANE(ids, ID_NONFINITE)[slot] = finite ? flags : counted;
@@ -39,5 +40,6 @@ kernel void accumulate(
     const size_t cell = PLANE(ids, ID_CELL)[slot];
     cell_flags[cell] = finite ? flags : counted;
 #pragma unroll
-    for (int k = 0; k < SUM_PLANES; ++k) cells[cell * CELL_FLOATS + k] = PLANE(radiances, SUM_R + k)[slot];
+    for (int k = 0; k < SUM_PLANES; ++k)
+        cells[cell * CELL_FLOATS + k] = PLANE(radiances, SUM_R + k)[slot];
 }

@@ -42,7 +42,8 @@ kernel void direct_light(
     const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
     const Bits2 choice = scattering_pair(seed, index, branch, scattering, PAIR_CHOICE);
     const Bits2 point = scattering_pair(seed, index, branch, scattering, PAIR_LIGHT_POINT);
-    global const DeviceLight* light = lights + (int)choose_light(lights, params.light_count, choice.u);
+    global const DeviceLight* light =
+        lights + (int)choose_light(lights, params.light_count, choice.u);
     LightSample s;
     s.p = p;
     s.wi = n;
@@ -69,9 +70,11 @@ kernel void direct_light(
         s.pdf_w = is_environment ? pdf_w : s.pdf_w;
     }
 
-    // what it brings: throughput * f_r cos * L_e / pdf_w, weighted against the bsdf's chance to find it
+    // what it brings: throughput * f_r cos * L_e / pdf_w, weighted against the bsdf's chance to
+    // find it
     const Frame frame = frame_around(n);
-    const Vec3 wo = to_local(frame, scale3(load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), -1.0f));
+    const Vec3 wo =
+        to_local(frame, scale3(load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), -1.0f));
     const Vec3 wi = to_local(frame, s.wi);
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
     value = mul3(value, gltf_eval(surface, wo, wi));
@@ -79,7 +82,8 @@ kernel void direct_light(
         const float weight = power_heuristic(s.pdf_w, gltf_pdf_w(surface, wo, wi));
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
-    // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay scalar on PoCL.
+    // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay
+    // scalar on PoCL.
     float t_max = scattering < params.max_scatterings ? 1.0f : 0.0f;
     t_max *= dot3(ng, s.wi) > 0.0f ? 1.0f : 0.0f;
     t_max *= wi.z > 0.0f ? 1.0f : 0.0f;

@@ -21,7 +21,8 @@ kernel void first_hit(
     if (primitive == HIT_IDLE) return;
     if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
     const int hit = primitive >= 0;
-    const float kept = PLANE(ids, ID_SAMPLE)[slot] == 0 ? 0.0f : 1.0f;  // a unit's first sample starts its sums
+    const float kept =
+        PLANE(ids, ID_SAMPLE)[slot] == 0 ? 0.0f : 1.0f;  // a unit's first sample starts its sums
     const Vec3 zero = vec3(0.0f, 0.0f, 0.0f);
     const Vec3 base = select3(hit, load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot), zero);
     const Vec3 n = select3(hit, load_shading_normal(surfaces, stride, slot), zero);
@@ -31,5 +32,6 @@ kernel void first_hit(
     store3(albedo, stride, slot, madd3(base, load3(albedo, stride, slot), kept));
     store3(normal, stride, slot, madd3(n, load3(normal, stride, slot), kept));
     PLANE(radiances, SUM_DEPTH)[slot] = fma(PLANE(radiances, SUM_DEPTH)[slot], kept, depth);
-    PLANE(radiances, SUM_COVERAGE)[slot] = fma(PLANE(radiances, SUM_COVERAGE)[slot], kept, hit ? 1.0f : 0.0f);
+    PLANE(radiances, SUM_COVERAGE)
+    [slot] = fma(PLANE(radiances, SUM_COVERAGE)[slot], kept, hit ? 1.0f : 0.0f);
 }

@@ -1,9 +1,8 @@
-// Folds the cells of a window into the film, pixel by pixel, in the order of the passes, so that the bytes of the film
-// depend neither on the pool nor on how the passes were divided into windows. Compensated sums [Kahan 1965]: 10^7
-// samples of a constant stay right to 1e-7. The variance between batches is updated by Welford's recurrence, weighted
-// [West 1979].
-// reads: plan, cells, cell_flags    writes: film, film_flags
-// One work-item a pixel of the window.
+// Folds the cells of a window into the film, pixel by pixel, in the order of the passes, so that
+// the bytes of the film depend neither on the pool nor on how the passes were divided into windows.
+// Compensated sums [Kahan 1965]: 10^7 samples of a constant stay right to 1e-7. The variance
+// between batches is updated by Welford's recurrence, weighted [West 1979]. reads: plan, cells,
+// cell_flags    writes: film, film_flags One work-item a pixel of the window.
 
 #include "sampling/vector.cl"
 #include "shared/film.h"
@@ -42,7 +41,8 @@ kernel void fold_film(
         total.sum = film[(FILM_SUM + k) * pixels + pixel];
         total.lost = film[(FILM_LOST + k) * pixels + pixel];
         for (uint pass = 0; pass < passes; ++pass)
-            total = add_compensated(total, cells[(pass * params.window_pixels + i) * CELL_FLOATS + k]);
+            total =
+                add_compensated(total, cells[(pass * params.window_pixels + i) * CELL_FLOATS + k]);
         film[(FILM_SUM + k) * pixels + pixel] = total.sum;
         film[(FILM_LOST + k) * pixels + pixel] = total.lost;
     }
@@ -54,7 +54,8 @@ kernel void fold_film(
         float mean = film[(FILM_MEAN + k) * pixels + pixel];
         float deviation = film[(FILM_DEVIATION + k) * pixels + pixel];
         for (uint pass = 0; pass < passes; ++pass) {
-            batch = add_compensated(batch, cells[(pass * params.window_pixels + i) * CELL_FLOATS + k]);
+            batch =
+                add_compensated(batch, cells[(pass * params.window_pixels + i) * CELL_FLOATS + k]);
             if (plan[pass].closes_batch == 0) continue;
             const float n = (float)plan[pass].closes_batch;
             const float batch_mean = (batch.sum - batch.lost) / n;

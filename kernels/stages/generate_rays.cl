@@ -1,5 +1,5 @@
-// Starts the next sample of every slot whose path is over: of its unit, or of the unit one pool further on.
-// reads: plan    writes: hits (a slot without work), ids, rays, throughputs, radiances
+// Starts the next sample of every slot whose path is over: of its unit, or of the unit one pool
+// further on. reads: plan    writes: hits (a slot without work), ids, rays, throughputs, radiances
 // One work-item a slot.
 
 #include "sampling/dimensions.cl"
@@ -80,7 +80,9 @@ kernel void generate_rays(
     const Vec3 film = madd3(madd3(corner, right, x), down, y);
     const int orthographic = params.orthographic != 0;
     store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, select3(orthographic, film, camera));
-    store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, select3(orthographic, camera, normalize3(film)));
+    store3(
+        PLANE(rays, RAY_DIRECTION_X), stride, slot,
+        select3(orthographic, camera, normalize3(film)));
 
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, vec3(1.0f, 1.0f, 1.0f));
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = PDF_CERTAIN;

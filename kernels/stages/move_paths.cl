@@ -26,7 +26,8 @@ kernel void move_paths(
     const uint to = holes[i];
     for (int k = 0; k < RAY_PLANES; ++k) PLANE(rays, k)[to] = PLANE(rays, k)[from];
     for (int k = 0; k < HIT_PLANES; ++k) PLANE(hits, k)[to] = PLANE(hits, k)[from];
-    for (int k = 0; k < THROUGHPUT_PLANES; ++k) PLANE(throughputs, k)[to] = PLANE(throughputs, k)[from];
+    for (int k = 0; k < THROUGHPUT_PLANES; ++k)
+        PLANE(throughputs, k)[to] = PLANE(throughputs, k)[from];
     for (int k = 0; k < RADIANCE_PLANES; ++k) PLANE(radiances, k)[to] = PLANE(radiances, k)[from];
     const int id_planes = HAS_SPLITS ? ID_PLANES : ID_PLANES_UNSPLIT;
     for (int k = 0; k < id_planes; ++k) PLANE(ids, k)[to] = PLANE(ids, k)[from];

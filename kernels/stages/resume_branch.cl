@@ -1,7 +1,7 @@
-// Takes paths that ended back to their last branch vertex with children to run (notes 2, N > 1: S directions from a
-// point). Children run one after the other in their parent's slot, so a slot stays one path.
-// reads: branches    writes: hits, rays, throughputs, ids, branches (children left), fates
-// One work-item a slot.
+// Takes paths that ended back to their last branch vertex with children to run (notes 2, N > 1: S
+// directions from a point). Children run one after the other in their parent's slot, so a slot
+// stays one path. reads: branches    writes: hits, rays, throughputs, ids, branches (children
+// left), fates One work-item a slot.
 
 #include "sampling/vector.cl"
 #include "shared/params.h"
@@ -22,7 +22,9 @@ kernel void resume_branch(
     if (slot >= slots) return;
     if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
     uint level = PLANE(ids, ID_STACK)[slot];
-    while (level > 0 && as_uint(PLANE(branches, (level - 1) * BRANCH_PLANES + BRANCH_LEFT)[slot]) == 0) --level;
+    while (level > 0 &&
+           as_uint(PLANE(branches, (level - 1) * BRANCH_PLANES + BRANCH_LEFT)[slot]) == 0)
+        --level;
     PLANE(ids, ID_STACK)[slot] = level;
     if (level == 0) return;
     global float* branch = PLANE(branches, (level - 1) * BRANCH_PLANES);
@@ -30,8 +32,12 @@ kernel void resume_branch(
     PLANE(hits, HIT_T)[slot] = T_RESUMED;
     PLANE(hits, HIT_U)[slot] = PLANE(branch, BRANCH_U)[slot];
     PLANE(hits, HIT_V)[slot] = PLANE(branch, BRANCH_V)[slot];
-    store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, load3(PLANE(branch, BRANCH_DIRECTION_X), stride, slot));
-    store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, load3(PLANE(branch, BRANCH_R), stride, slot));
+    store3(
+        PLANE(rays, RAY_DIRECTION_X), stride, slot,
+        load3(PLANE(branch, BRANCH_DIRECTION_X), stride, slot));
+    store3(
+        PLANE(throughputs, THROUGHPUT_R), stride, slot,
+        load3(PLANE(branch, BRANCH_R), stride, slot));
     PLANE(ids, ID_SCATTERING)[slot] = level - 1;
     PLANE(ids, ID_BRANCH)[slot] = as_uint(PLANE(branch, BRANCH_ID)[slot]);
     fates[slot] = (uchar)((fates[slot] & ~FATE_ENDED) | FATE_ACTIVE | FATE_RESUMED);

@@ -1,6 +1,6 @@
-// Decides which paths go on (notes 4, Russian roulette: survivors carry 1/q) and what becomes of each slot.
-// reads: ids    writes: throughputs, hits (the end), ids (scatterings of the last ray traced), fates
-// One work-item a slot. scan_queue counts the fates.
+// Decides which paths go on (notes 4, Russian roulette: survivors carry 1/q) and what becomes of
+// each slot. reads: ids    writes: throughputs, hits (the end), ids (scatterings of the last ray
+// traced), fates One work-item a slot. scan_queue counts the fates.
 
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
@@ -29,14 +29,17 @@ kernel void roulette_compact(
 
     // q: constant, or what the path still carries; never above 1
     float survival = 1.0f;
-    float shares = 1.0f;  // a child carries the S-th part of its parent, which says nothing about its worth
+    float shares =
+        1.0f;  // a child carries the S-th part of its parent, which says nothing about its worth
     if (HAS_SPLITS)
-        for (uint k = 0; k < min(scattering, params.split_depth); ++k) shares *= (float)params.splits;
+        for (uint k = 0; k < min(scattering, params.split_depth); ++k)
+            shares *= (float)params.splits;
     survival = params.roulette == 1 ? min(1.0f, max_component3(throughput) * shares) : survival;
     survival = params.roulette == 2 ? params.survival : survival;
     const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
     const uint dimension = PAIR_FIRST + scattering * SCATTERING_PAIRS + PAIR_ROULETTE;
-    const uint seed = hash_pair(PLANE(ids, ID_SEED)[slot], HAS_SPLITS ? hash_pair(dimension, branch) : dimension);
+    const uint seed =
+        hash_pair(PLANE(ids, ID_SEED)[slot], HAS_SPLITS ? hash_pair(dimension, branch) : dimension);
     const float u = unit_float(hash_pair(seed, PLANE(ids, ID_INDEX)[slot]));
     // a NaN throughput survives, to be found and counted at the end of the path
     const int dies = primitive >= 0 && u >= survival;
@@ -45,7 +48,9 @@ kernel void roulette_compact(
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(ends ? HIT_ENDED : primitive);
     PLANE(ids, ID_SCATTERING)[slot] = scattering - (dies ? 1 : 0);
 
-    const int has_next = PLANE(ids, ID_LEFT)[slot] > 0 || PLANE(ids, ID_CELL)[slot] + params.pool < params.cells;
+    const int has_next =
+        PLANE(ids, ID_LEFT)[slot] > 0 || PLANE(ids, ID_CELL)[slot] + params.pool < params.cells;
     const uint connected = SAMPLE_LIGHTS ? fates[slot] : 0u;
-    fates[slot] = (uchar)(connected | (!ends || has_next ? FATE_ACTIVE : 0u) | (ends ? FATE_ENDED : 0u));
+    fates[slot] =
+        (uchar)(connected | (!ends || has_next ? FATE_ACTIVE : 0u) | (ends ? FATE_ENDED : 0u));
 }

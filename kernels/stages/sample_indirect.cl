@@ -1,6 +1,6 @@
-// Continues every path at a surface in a direction of its bsdf (notes 3 and 5, indirectRadianceEstimator), or ends it.
-// reads: surfaces, materials    writes: rays, hits (the end), throughputs, ids, branches
-// One work-item a slot.
+// Continues every path at a surface in a direction of its bsdf (notes 3 and 5,
+// indirectRadianceEstimator), or ends it. reads: surfaces, materials    writes: rays, hits (the
+// end), throughputs, ids, branches One work-item a slot.
 
 #include "geometry/interaction.cl"
 #include "sampling/dimensions.cl"
@@ -55,20 +55,26 @@ kernel void sample_indirect(
     }
     const Sample2 u = unit_pair(scattering_pair(seed, index, branch, scattering, PAIR_DIRECTION));
     float choice = 0.0f;
-    if (HAS_SPECULAR) choice = unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
+    if (HAS_SPECULAR)
+        choice = unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
 
     const Frame frame = frame_around(n);
-    const BsdfSample s = gltf_sample(load_surface(materials, surfaces, stride, slot), to_local(frame, scale3(direction, -1.0f)), u, choice);
+    const BsdfSample s = gltf_sample(
+        load_surface(materials, surfaces, stride, slot), to_local(frame, scale3(direction, -1.0f)),
+        u, choice);
     const Vec3 wi = to_world(frame, s.wi);
     const Vec3 throughput = mul3(carried, s.weight);
     // A direction on the far side of the face would leak light through it: it counts as absorbed.
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= s.wi.z > 0.0f ? 1.0f : 0.0f;
     goes_on *= dot3(ng, wi) > 0.0f ? 1.0f : 0.0f;
-    goes_on *= max_component3(throughput) <= 0.0f ? 0.0f : 1.0f;  // NaN goes on, to be found and counted
+    goes_on *=
+        max_component3(throughput) <= 0.0f ? 0.0f : 1.0f;  // NaN goes on, to be found and counted
     const int continues = goes_on > 0.0f;
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? primitive : HIT_ENDED);
-    store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), ng));
+    store3(
+        PLANE(rays, RAY_ORIGIN_X), stride, slot,
+        leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), ng));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = s.pdf_w;

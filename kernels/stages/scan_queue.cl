@@ -1,6 +1,6 @@
-// Counts each chunk of QUEUE_CHUNK slots: those with work, the ended paths by length, the connections.
-// reads: fates, ids    writes: chunks, statistics (a row each chunk)
-// One work-item a chunk.
+// Counts each chunk of QUEUE_CHUNK slots: those with work, the ended paths by length, the
+// connections. reads: fates, ids    writes: chunks, statistics (a row each chunk) One work-item a
+// chunk.
 
 #include "sampling/vector.cl"
 #include "shared/params.h"

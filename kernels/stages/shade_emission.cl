@@ -23,7 +23,8 @@ kernel void shade_emission(
     if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
     const uint row = as_uint(PLANE(surfaces, SURFACE_LIGHT)[slot]);
     if (row == NO_LIGHT) return;
-    global const DeviceMaterial* material = materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
+    global const DeviceMaterial* material =
+        materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     const Vec3 emission = vec3(material->emission_r, material->emission_g, material->emission_b);
     const float pdf_w = PLANE(throughputs, THROUGHPUT_PDF)[slot];
 
@@ -32,7 +33,8 @@ kernel void shade_emission(
     if (SAMPLE_LIGHTS) {
         const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
         const float cos_light = -dot3(ng, load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));
-        const float light_pdf_w = area_light_pdf_w(lights + (int)row, PLANE(hits, HIT_T)[slot], cos_light);
+        const float light_pdf_w =
+            area_light_pdf_w(lights + (int)row, PLANE(hits, HIT_T)[slot], cos_light);
         const float share = WEIGH_BOTH ? power_heuristic(pdf_w, light_pdf_w) : 0.0f;
         weight = pdf_w == PDF_CERTAIN ? 1.0f : share;
     }

@@ -25,11 +25,13 @@ kernel void shade_miss(
     // Light sampling could have chosen this direction too: leave it its share (direct: all of it).
     float weight = 1.0f;
     if (SAMPLE_LIGHTS && params.environment_pmf > 0.0f) {
-        const float light_pdf_w = params.environment_pmf * environment_pdf_w(environment, &params, direction);
+        const float light_pdf_w =
+            params.environment_pmf * environment_pdf_w(environment, &params, direction);
         const float share = WEIGH_BOTH ? power_heuristic(pdf_w, light_pdf_w) : 0.0f;
         weight = pdf_w == PDF_CERTAIN ? 1.0f : share;
     }
-    const Vec3 carried = scale3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), missed ? weight : 0.0f);
+    const Vec3 carried =
+        scale3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), missed ? weight : 0.0f);
     global float* radiance = PLANE(radiances, RADIANCE_R);
     const Vec3 light = environment_eval(environment, &params, direction);
     const Vec3 before = load3(radiance, stride, slot);

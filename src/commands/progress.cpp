@@ -10,7 +10,10 @@
 namespace wavepath {
 
 Progress::Progress(const RenderSettings& settings, bool quiet)
-    : settings_(settings), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), next_(terminal_ ? 0 : 10) {}
+    : settings_(settings),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      next_(terminal_ ? 0 : 10) {}
 
 void Progress::show(const RenderProgress& state) {
     if (quiet_ || state.seconds < next_) return;
@@ -29,15 +32,18 @@ std::string Progress::line(const RenderProgress& state) const {
     const double error = state.relative_error();
     double left = 0;  // [s]
     if (state.samples_wanted > 0)
-        left = state.seconds * (static_cast<double>(state.samples_wanted) / static_cast<double>(state.samples) - 1);
+        left = state.seconds *
+               (static_cast<double>(state.samples_wanted) / static_cast<double>(state.samples) - 1);
     else if (settings_.seconds > 0)
         left = std::max(0.0, settings_.seconds - state.seconds);
     else if (std::isfinite(error))  // error falls with the root of the samples
         left = state.seconds * std::max(0.0, std::pow(error / settings_.target_error, 2) - 1);
     return fmt::format(
-        "{}{} samples a pixel, {:.2f} Msamples/s, {:.2f} Mrays/s, relative error {:.3g}, {:.0f} s left", state.samples,
-        state.samples_wanted > 0 ? fmt::format(" of {}", state.samples_wanted) : "", 1e-6 * samples / state.seconds,
-        1e-6 * static_cast<double>(state.rays) / state.seconds, error, left);
+        "{}{} samples a pixel, {:.2f} Msamples/s, {:.2f} Mrays/s, relative error {:.3g}, {:.0f} s "
+        "left",
+        state.samples, state.samples_wanted > 0 ? fmt::format(" of {}", state.samples_wanted) : "",
+        1e-6 * samples / state.seconds, 1e-6 * static_cast<double>(state.rays) / state.seconds,
+        error, left);
 }
 
 }  // namespace wavepath

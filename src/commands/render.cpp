@@ -36,7 +36,8 @@ void check_outputs(const Outputs& outputs) {
     if (!outputs.json.empty()) check_writable(outputs.json);
 }
 
-std::map<std::string, std::string> metadata(const Device& device, const RenderJob& job, const RenderResult& result) {
+std::map<std::string, std::string> metadata(
+    const Device& device, const RenderJob& job, const RenderResult& result) {
     const std::string bias = job.settings.termination.bias();
     std::map<std::string, std::string> m{
         {"wavepath.scene", job.scene.name},
@@ -51,7 +52,10 @@ std::map<std::string, std::string> metadata(const Device& device, const RenderJo
         {"wavepath.driver", device.info.driver},
         {"wavepath.build", WAVEPATH_VERSION},
     };
-    if (job.settings.target_error > 0) m["wavepath.bias"] = "stopped by --target-error: a stopping rule that reads the samples is slightly biased" + (bias.empty() ? "" : "; " + bias);
+    if (job.settings.target_error > 0)
+        m["wavepath.bias"] =
+            "stopped by --target-error: a stopping rule that reads the samples is slightly biased" +
+            (bias.empty() ? "" : "; " + bias);
     for (const std::string& warning : result.warnings) m["wavepath.warning"] += warning + "\n";
     return m;
 }
@@ -62,8 +66,9 @@ void run(const RenderOptions& options, const Outputs& outputs) {
     const Device device = open_device(options.device);
     const RenderJob job = prepare_job(options);
     for (const std::string& line : job.scene.ignored) spdlog::warn("{}: {}", job.scene.name, line);
-    spdlog::info("{}: {} triangles, {}x{}, {} on {}", job.scene.name, job.scene.triangle_count(), job.settings.width, job.settings.height,
-        job.settings.method.name, device.info.name);
+    spdlog::info(
+        "{}: {} triangles, {}x{}, {} on {}", job.scene.name, job.scene.triangle_count(),
+        job.settings.width, job.settings.height, job.settings.method.name, device.info.name);
 
     const InterruptGuard interrupt;
     Progress progress(job.settings, outputs.quiet);
@@ -74,16 +79,24 @@ void run(const RenderOptions& options, const Outputs& outputs) {
     progress.finish();
     for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
     if (result.film.nonfinite.samples > 0)
-        spdlog::warn("{} samples were not finite, the first in pixel ({}, {}), sample {}; their pixels hold NaN or infinity",
-            result.film.nonfinite.samples, result.film.nonfinite.x, result.film.nonfinite.y, result.film.nonfinite.sample);
+        spdlog::warn(
+            "{} samples were not finite, the first in pixel ({}, {}), sample {}; their pixels hold "
+            "NaN or infinity",
+            result.film.nonfinite.samples, result.film.nonfinite.x, result.film.nonfinite.y,
+            result.film.nonfinite.sample);
 
     result.film.image.metadata = metadata(device, job, result);
     for (const auto& path : outputs.images) {
-        if (path.extension() == ".exr") write_exr(result.film.image, path);
-        else write_png(result.film.image, path, outputs.exposure);
-        spdlog::info("wrote {}: {} samples a pixel in {:.2f} s, relative error {:.3g}", path.string(), result.samples, result.times.render, result.film.relative_error);
+        if (path.extension() == ".exr")
+            write_exr(result.film.image, path);
+        else
+            write_png(result.film.image, path, outputs.exposure);
+        spdlog::info(
+            "wrote {}: {} samples a pixel in {:.2f} s, relative error {:.3g}", path.string(),
+            result.samples, result.times.render, result.film.relative_error);
     }
-    if (!outputs.json.empty()) AtomicFile(outputs.json).commit(render_report(device, job, result).dump(2) + "\n");
+    if (!outputs.json.empty())
+        AtomicFile(outputs.json).commit(render_report(device, job, result).dump(2) + "\n");
     if (result.interrupted) {
         spdlog::warn("interrupted: the picture holds {} samples a pixel", result.samples);
         throw Interrupted();
@@ -97,8 +110,13 @@ void add_render_command(CLI::App& app) {
     const auto options = std::make_shared<RenderOptions>();
     const auto outputs = std::make_shared<Outputs>();
     add_render_options(*command, *options);
-    command->add_option("-o,--output", outputs->images, "Pictures to write, .exr (all layers) or .png; default wavepath.exr")->type_name("FILE");
-    command->add_option("--exposure", outputs->exposure, "Of the PNG: scales by 2^EV")->type_name("EV");
+    command
+        ->add_option(
+            "-o,--output", outputs->images,
+            "Pictures to write, .exr (all layers) or .png; default wavepath.exr")
+        ->type_name("FILE");
+    command->add_option("--exposure", outputs->exposure, "Of the PNG: scales by 2^EV")
+        ->type_name("EV");
     command->add_option("--json", outputs->json, "Write a report of the render")->type_name("FILE");
     command->add_flag("--quiet", outputs->quiet, "Say nothing but warnings and errors");
     command->callback([options, outputs] { run(*options, *outputs); });

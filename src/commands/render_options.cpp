@@ -28,7 +28,8 @@ std::array<double, N> parse_numbers(const char* option, const std::string& text,
     for (std::size_t i = 0; i < N; ++i) {
         const auto [rest, error] = std::from_chars(at, end, values[i]);
         const bool separated = i + 1 < N ? rest < end && *rest == ',' : rest == end;
-        if (error != std::errc{} || !separated || !std::isfinite(values[i])) throw Error("{} {}: use {}", option, text, form);
+        if (error != std::errc{} || !separated || !std::isfinite(values[i]))
+            throw Error("{} {}: use {}", option, text, form);
         at = rest + 1;
     }
     return values;
@@ -36,20 +37,28 @@ std::array<double, N> parse_numbers(const char* option, const std::string& text,
 
 void parse_size(const std::string& text, const Camera& camera, RenderSettings& settings) {
     if (text.empty()) {
-        const double aspect = camera.orthographic ? camera.x_mag / camera.y_mag : camera.aspect_ratio;
+        const double aspect =
+            camera.orthographic ? camera.x_mag / camera.y_mag : camera.aspect_ratio;
         settings.height = default_height;
-        settings.width = aspect > 0 ? static_cast<uint32_t>(std::clamp(std::lround(default_height * aspect), 1L, long{largest_side}))
-                                    : default_height;
+        settings.width = aspect > 0
+                             ? static_cast<uint32_t>(std::clamp(
+                                   std::lround(default_height * aspect), 1L, long{largest_side}))
+                             : default_height;
         return;
     }
     const std::size_t cross = text.find('x');
     const auto side = [&](std::string_view digits, uint32_t& value) {
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        return error == std::errc{} && end == digits.data() + digits.size() && value >= 1 && value <= largest_side;
+        const auto [end, error] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        return error == std::errc{} && end == digits.data() + digits.size() && value >= 1 &&
+               value <= largest_side;
     };
-    if (cross == std::string::npos || !side(std::string_view(text).substr(0, cross), settings.width) ||
+    if (cross == std::string::npos ||
+        !side(std::string_view(text).substr(0, cross), settings.width) ||
         !side(std::string_view(text).substr(cross + 1), settings.height))
-        throw Error("--size {}: use WxH in pixels, each from 1 to {}, for example 512x512", text, largest_side);
+        throw Error(
+            "--size {}: use WxH in pixels, each from 1 to {}, for example 512x512", text,
+            largest_side);
 }
 
 Camera parse_camera(const RenderOptions& options, const Scene& scene) {
@@ -62,28 +71,37 @@ Camera parse_camera(const RenderOptions& options, const Scene& scene) {
         camera = look_at({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, 45 * degree);
     }
     if (options.fov) {
-        if (!(*options.fov > 0 && *options.fov < 180)) throw Error("--fov {}: use degrees between 0 and 180", *options.fov);
-        if (camera.orthographic) throw Error("--fov: camera \"{}\" is orthographic; choose another or use --look-at", camera.name);
+        if (!(*options.fov > 0 && *options.fov < 180))
+            throw Error("--fov {}: use degrees between 0 and 180", *options.fov);
+        if (camera.orthographic)
+            throw Error(
+                "--fov: camera \"{}\" is orthographic; choose another or use --look-at",
+                camera.name);
         camera.y_fov = *options.fov * degree;
     }
     return camera;
 }
 
 void parse_budget(const RenderOptions& options, RenderSettings& settings) {
-    const int budgets = int{options.spp.has_value()} + int{options.time.has_value()} + int{options.target_error.has_value()};
+    const int budgets = int{options.spp.has_value()} + int{options.time.has_value()} +
+                        int{options.target_error.has_value()};
     if (budgets > 1) throw Error("--spp, --time and --target-error: give one of them");
     if (options.spp) {
-        if (*options.spp == 0 || *options.spp > 0xFFFFFFFFU) throw Error("--spp {}: use 1 to 4294967295", *options.spp);
+        if (*options.spp == 0 || *options.spp > 0xFFFFFFFFU)
+            throw Error("--spp {}: use 1 to 4294967295", *options.spp);
         settings.samples = *options.spp;
     }
     if (options.time) {
-        if (!(*options.time > 0) || !std::isfinite(*options.time)) throw Error("--time {}: use seconds above 0", *options.time);
+        if (!(*options.time > 0) || !std::isfinite(*options.time))
+            throw Error("--time {}: use seconds above 0", *options.time);
         settings.samples = 0;
         settings.seconds = *options.time;
     }
     if (options.target_error) {
         if (!(*options.target_error > 0) || !std::isfinite(*options.target_error))
-            throw Error("--target-error {}: use a relative error above 0, for example 0.01", *options.target_error);
+            throw Error(
+                "--target-error {}: use a relative error above 0, for example 0.01",
+                *options.target_error);
         settings.samples = 0;
         settings.target_error = *options.target_error;
     }
@@ -96,9 +114,11 @@ std::optional<Environment> parse_environment(const RenderOptions& options) {
     environment.radiance = {1, 1, 1};
     if (!options.environment.empty()) environment = load_environment_map(options.environment);
     if (!constant) return environment;
-    const auto rgb = parse_numbers<3>("--env-radiance", options.environment_radiance, "R,G,B radiance, each 0 or more");
+    const auto rgb = parse_numbers<3>(
+        "--env-radiance", options.environment_radiance, "R,G,B radiance, each 0 or more");
     for (std::size_t c = 0; c < 3; ++c) {
-        if (rgb[c] < 0) throw Error("--env-radiance {}: radiance is 0 or more", options.environment_radiance);
+        if (rgb[c] < 0)
+            throw Error("--env-radiance {}: radiance is 0 or more", options.environment_radiance);
         environment.radiance[c] = static_cast<float>(rgb[c]);
     }
     if (rgb[0] + rgb[1] + rgb[2] <= 0) return std::nullopt;
@@ -109,31 +129,64 @@ std::optional<Environment> parse_environment(const RenderOptions& options) {
 
 void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option("scene", o.scene, "The scene, .gltf or .glb")->required()->type_name("SCENE");
-    app.add_option("--size", o.size, "Picture size in pixels; default 512 high, as wide as the camera says")->type_name("WxH");
-    app.add_option("--camera", o.camera, "A camera of the scene, by name or index; default its first")->type_name("NAME|INDEX");
-    app.add_option("--look-at", o.look_at, "A camera of your own: eye and target [m]")->type_name("ex,ey,ez,tx,ty,tz");
-    app.add_option("--fov", o.fov, "Vertical field of view; default the camera's, 45 with --look-at")->type_name("DEG");
+    app.add_option(
+           "--size", o.size, "Picture size in pixels; default 512 high, as wide as the camera says")
+        ->type_name("WxH");
+    app.add_option(
+           "--camera", o.camera, "A camera of the scene, by name or index; default its first")
+        ->type_name("NAME|INDEX");
+    app.add_option("--look-at", o.look_at, "A camera of your own: eye and target [m]")
+        ->type_name("ex,ey,ez,tx,ty,tz");
+    app.add_option(
+           "--fov", o.fov, "Vertical field of view; default the camera's, 45 with --look-at")
+        ->type_name("DEG");
     app.add_option("--spp", o.spp, "Samples a pixel; default 64")->type_name("N");
     app.add_option("--time", o.time, "Sample for this long instead [s]")->type_name("SECONDS");
-    app.add_option("--target-error", o.target_error, "Sample until the mean relative standard error falls below this instead")->type_name("REL");
+    app.add_option(
+           "--target-error", o.target_error,
+           "Sample until the mean relative standard error falls below this instead")
+        ->type_name("REL");
     app.add_option("--seed", o.seed, "Of the random numbers; default 1")->type_name("N");
-    app.add_option("--device", o.device, "cpu, gpu, P.D as `wavepath devices` numbers them, or part of a name; default PoCL")->type_name("SELECTOR");
-    app.add_option("--method", o.method, "The estimator; default mis")->check(CLI::IsMember({"path", "direct", "bsdf", "direct-bsdf", "mis"}))->type_name("NAME");
-    app.add_option("--termination", o.termination, "When paths end: zero, depth:D (biased), roulette (default), roulette:q")->type_name("HOW");
-    app.add_option("--light-choice", o.light_choice, "How lights are chosen; default the method's own")->check(CLI::IsMember({"area", "power"}))->type_name("area|power");
-    app.add_option("--sampler", o.sampler, "Kind of points; default sobol")->check(CLI::IsMember({"sobol", "independent"}))->type_name("sobol|independent");
-    app.add_option("--splits", o.splits, "1,1,S: S directions from a surface point")->type_name("N,M,S");
-    app.add_option("--split-depth", o.split_depth, "Only the first K vertices split; default 1")->check(CLI::Range(1, 8))->type_name("K");
-    app.add_option("--env", o.environment, "Environment map, latitude-longitude .hdr or .exr")->type_name("MAP");
-    app.add_option("--env-radiance", o.environment_radiance, "Constant environment, or the scale of --env")->type_name("R,G,B");
-    app.add_option("--pool", o.pool, "Path slots; default the device's")->check(CLI::Range(1U, 1U << 24U))->type_name("SLOTS");
+    app.add_option(
+           "--device", o.device,
+           "cpu, gpu, P.D as `wavepath devices` numbers them, or part of a name; default PoCL")
+        ->type_name("SELECTOR");
+    app.add_option("--method", o.method, "The estimator; default mis")
+        ->check(CLI::IsMember({"path", "direct", "bsdf", "direct-bsdf", "mis"}))
+        ->type_name("NAME");
+    app.add_option(
+           "--termination", o.termination,
+           "When paths end: zero, depth:D (biased), roulette (default), roulette:q")
+        ->type_name("HOW");
+    app.add_option(
+           "--light-choice", o.light_choice, "How lights are chosen; default the method's own")
+        ->check(CLI::IsMember({"area", "power"}))
+        ->type_name("area|power");
+    app.add_option("--sampler", o.sampler, "Kind of points; default sobol")
+        ->check(CLI::IsMember({"sobol", "independent"}))
+        ->type_name("sobol|independent");
+    app.add_option("--splits", o.splits, "1,1,S: S directions from a surface point")
+        ->type_name("N,M,S");
+    app.add_option("--split-depth", o.split_depth, "Only the first K vertices split; default 1")
+        ->check(CLI::Range(1, 8))
+        ->type_name("K");
+    app.add_option("--env", o.environment, "Environment map, latitude-longitude .hdr or .exr")
+        ->type_name("MAP");
+    app.add_option(
+           "--env-radiance", o.environment_radiance, "Constant environment, or the scale of --env")
+        ->type_name("R,G,B");
+    app.add_option("--pool", o.pool, "Path slots; default the device's")
+        ->check(CLI::Range(1U, 1U << 24U))
+        ->type_name("SLOTS");
 }
 
 RenderJob prepare_job(const RenderOptions& options) {
     RenderJob job;
     RenderSettings& settings = job.settings;
     settings.method = method_named(options.method);
-    if (!options.light_choice.empty()) settings.method.light_choice = options.light_choice == "area" ? LightChoice::area : LightChoice::power;
+    if (!options.light_choice.empty())
+        settings.method.light_choice =
+            options.light_choice == "area" ? LightChoice::area : LightChoice::power;
     settings.termination = parse_termination(options.termination);
     settings.splits = parse_splits(options.splits);
     settings.split_depth = options.split_depth;
@@ -147,7 +200,8 @@ RenderJob prepare_job(const RenderOptions& options) {
     job.scene.environment = parse_environment(options);
     settings.camera = parse_camera(options, job.scene);
     parse_size(options.size, settings.camera, settings);
-    job.load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    job.load_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return job;
 }
 

@@ -16,18 +16,18 @@ namespace wavepath {
 
 struct RenderOptions {
     std::filesystem::path scene;
-    std::string size;               // "WxH"; empty: 512 high, the camera's aspect ratio
+    std::string size;  // "WxH"; empty: 512 high, the camera's aspect ratio
     std::string camera;
     std::string look_at;
-    std::optional<double> fov;      // [degrees] vertical
+    std::optional<double> fov;  // [degrees] vertical
     std::optional<uint64_t> spp;
-    std::optional<double> time;     // [s]
+    std::optional<double> time;  // [s]
     std::optional<double> target_error;
     uint32_t seed = 1;
     std::string device;
     std::string method = "mis";
     std::string termination = "roulette";
-    std::string light_choice;       // empty: the method's own
+    std::string light_choice;  // empty: the method's own
     std::string sampler = "sobol";
     std::string splits = "1,1,1";
     uint32_t split_depth = 1;
@@ -38,8 +38,8 @@ struct RenderOptions {
 
 void add_render_options(CLI::App& app, RenderOptions& options);
 
-// A scene as the options name and light it, with the settings to render it. Throws Error for options that contradict
-// each other, the scene, or their own syntax.
+// A scene as the options name and light it, with the settings to render it. Throws Error for
+// options that contradict each other, the scene, or their own syntax.
 struct RenderJob {
     Scene scene;
     RenderSettings settings;

@@ -15,19 +15,23 @@ class DeviceArray {
   public:
     DeviceArray() = default;
 
-    // An uninitialised array of `count` elements (at least one is allocated: OpenCL has no empty buffers).
-    // Throws Error, naming `what`, where the device cannot hold it in one buffer.
+    // An uninitialised array of `count` elements (at least one is allocated: OpenCL has no empty
+    // buffers). Throws Error, naming `what`, where the device cannot hold it in one buffer.
     DeviceArray(const Device& device, std::size_t count, const std::string& what) : count_(count) {
         const std::size_t bytes = sizeof(T) * (count > 0 ? count : 1);
         if (bytes > device.info.max_allocation)
-            throw Error("{}: {} MiB needed in one buffer, the device allows {} MiB; use a smaller scene, image or --pool, or another --device",
+            throw Error(
+                "{}: {} MiB needed in one buffer, the device allows {} MiB; use a smaller scene, "
+                "image or --pool, or another --device",
                 what, bytes >> 20U, device.info.max_allocation >> 20U);
         buffer_ = cl::Buffer(device.context, CL_MEM_READ_WRITE, bytes);
     }
 
     DeviceArray(const Device& device, const std::vector<T>& values, const std::string& what)
         : DeviceArray(device, values.size(), what) {
-        if (!values.empty()) device.queue.enqueueWriteBuffer(buffer_, CL_TRUE, 0, sizeof(T) * values.size(), values.data());
+        if (!values.empty())
+            device.queue.enqueueWriteBuffer(
+                buffer_, CL_TRUE, 0, sizeof(T) * values.size(), values.data());
     }
 
     std::size_t size() const { return count_; }

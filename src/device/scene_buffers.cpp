@@ -9,8 +9,8 @@ namespace wavepath {
 namespace {
 
 std::vector<cl_float> triangle_records(const NormalisedScene& geometry, const LightTables& lights) {
-    const std::size_t floats =
-        TRIANGLE_ATTRIBUTES + (geometry.normals.empty() ? 0 : 9) + (geometry.colors.empty() ? 0 : 9);
+    const std::size_t floats = TRIANGLE_ATTRIBUTES + (geometry.normals.empty() ? 0 : 9) +
+                               (geometry.colors.empty() ? 0 : 9);
     std::vector<cl_float> records(floats * geometry.triangle_count());
     for (std::size_t t = 0; t < geometry.triangle_count(); ++t) {
         float* record = &records[floats * t];
@@ -18,7 +18,8 @@ std::vector<cl_float> triangle_records(const NormalisedScene& geometry, const Li
         record[TRIANGLE_LIGHT] = std::bit_cast<float>(lights.triangle_lights[t]);
         std::copy_n(&geometry.positions[9 * t], 9, record + TRIANGLE_CORNERS);
         float* attribute = record + TRIANGLE_ATTRIBUTES;
-        if (!geometry.normals.empty()) attribute = std::copy_n(&geometry.normals[9 * t], 9, attribute);
+        if (!geometry.normals.empty())
+            attribute = std::copy_n(&geometry.normals[9 * t], 9, attribute);
         if (!geometry.colors.empty()) std::copy_n(&geometry.colors[9 * t], 9, attribute);
     }
     return records;
@@ -33,7 +34,11 @@ std::vector<DeviceMaterial> device_materials(const Scene& scene) {
 }  // namespace
 
 SceneBuffers::SceneBuffers(
-    const Device& device, const Scene& scene, const NormalisedScene& geometry, const Bvh& bvh, const LightTables& tables)
+    const Device& device,
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    const Bvh& bvh,
+    const LightTables& tables)
     : nodes(device, bvh.nodes, "BVH nodes"),
       blocks(device, bvh.blocks, "BVH leaves"),
       triangles(device, triangle_records(geometry, tables), "triangles"),
@@ -42,7 +47,8 @@ SceneBuffers::SceneBuffers(
       environment(device, tables.environment, "environment map") {}
 
 std::size_t SceneBuffers::bytes() const {
-    return nodes.bytes() + blocks.bytes() + triangles.bytes() + materials.bytes() + lights.bytes() + environment.bytes();
+    return nodes.bytes() + blocks.bytes() + triangles.bytes() + materials.bytes() + lights.bytes() +
+           environment.bytes();
 }
 
 }  // namespace wavepath

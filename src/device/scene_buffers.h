@@ -11,7 +11,11 @@ namespace wavepath {
 
 struct SceneBuffers {
     SceneBuffers(
-        const Device& device, const Scene& scene, const NormalisedScene& geometry, const Bvh& bvh, const LightTables& tables);
+        const Device& device,
+        const Scene& scene,
+        const NormalisedScene& geometry,
+        const Bvh& bvh,
+        const LightTables& tables);
 
     DeviceArray<BvhNode> nodes;
     DeviceArray<TriangleBlock> blocks;

@@ -11,19 +11,23 @@ namespace wavepath {
 
 namespace {
 
-// Zeroed once a render, by writes and not by a fill: oclgrind 21.10 takes what a fill wrote for uninitialised.
+// Zeroed once a render, by writes and not by a fill: oclgrind 21.10 takes what a fill wrote for
+// uninitialised.
 template <typename T>
 DeviceArray<T> zeros(const Device& device, std::size_t count) {
     DeviceArray<T> array(device, count, "film");
-    const std::vector<T> block(std::min(count, std::size_t{1} << 18U));  // no second film on the host
+    const std::vector<T> block(
+        std::min(count, std::size_t{1} << 18U));  // no second film on the host
     for (std::size_t begin = 0; begin < count; begin += block.size())
         device.queue.enqueueWriteBuffer(
-            array.buffer(), CL_TRUE, sizeof(T) * begin, sizeof(T) * std::min(block.size(), count - begin), block.data());
+            array.buffer(), CL_TRUE, sizeof(T) * begin,
+            sizeof(T) * std::min(block.size(), count - begin), block.data());
     return array;
 }
 
-constexpr const char* sum_channels[SUM_PLANES - 1] = {"R",        "G",        "B",        "albedo.R", "albedo.G",
-                                                      "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"};
+constexpr const char* sum_channels[SUM_PLANES - 1] = {
+    "R",        "G",        "B",        "albedo.R", "albedo.G",
+    "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"};
 constexpr const char* variance_channels[3] = {"variance.R", "variance.G", "variance.B"};
 
 }  // namespace
@@ -39,7 +43,8 @@ DevelopedFilm develop(const Device& device, const Film& film, uint64_t samples, 
     const std::vector<cl_float> planes = film.planes.read(device);
     const std::vector<cl_uint> flags = film.flags.read(device);
     const auto total = [&](std::size_t plane, std::size_t i) {
-        return double{planes[(FILM_SUM + plane) * pixels + i]} - planes[(FILM_LOST + plane) * pixels + i];
+        return double{planes[(FILM_SUM + plane) * pixels + i]} -
+               planes[(FILM_LOST + plane) * pixels + i];
     };
     const auto n = static_cast<double>(samples);
 
@@ -49,7 +54,8 @@ DevelopedFilm develop(const Device& device, const Film& film, uint64_t samples, 
     for (std::size_t plane = 0; plane + 1 < SUM_PLANES; ++plane) {
         std::vector<float>& channel = out.image.channels[sum_channels[plane]];
         channel.resize(pixels);
-        for (std::size_t i = 0; i < pixels; ++i) channel[i] = static_cast<float>(total(plane, i) / n);
+        for (std::size_t i = 0; i < pixels; ++i)
+            channel[i] = static_cast<float>(total(plane, i) / n);
     }
     std::vector<float>& depth = out.image.channels["depth.Z"];
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -64,8 +70,8 @@ DevelopedFilm develop(const Device& device, const Film& film, uint64_t samples, 
         channel.resize(pixels);
         for (std::size_t i = 0; i < pixels; ++i) {
             const double deviation = planes[(FILM_DEVIATION + c) * pixels + i];
-            const double variance =
-                batches > 1 ? deviation / (n * (batches - 1)) : std::numeric_limits<double>::quiet_NaN();
+            const double variance = batches > 1 ? deviation / (n * (batches - 1))
+                                                : std::numeric_limits<double>::quiet_NaN();
             channel[i] = batches > 1 ? static_cast<float>(variance) : 0;
             const double mean = total(c, i) / n;
             if (!std::isfinite(mean)) continue;

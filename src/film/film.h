@@ -26,11 +26,13 @@ struct NonFinite {
 struct DevelopedFilm {
     Image image;  // all layers; metadata is the caller's
     NonFinite nonfinite;
-    double relative_error = 0;  // sqrt(mean(variance / (mean^2 + 0.01))) over pixels and channels; NaN below 2 batches
+    double relative_error =
+        0;  // sqrt(mean(variance / (mean^2 + 0.01))) over pixels and channels; NaN below 2 batches
 };
 
-// Means, and the variance of the mean over `batches` batches: W M / (B - 1) with W the samples. Pixels that hold a
-// non-finite sample stay non-finite and are left out of relative_error. Depth is 0 where nothing was hit.
+// Means, and the variance of the mean over `batches` batches: W M / (B - 1) with W the samples.
+// Pixels that hold a non-finite sample stay non-finite and are left out of relative_error. Depth is
+// 0 where nothing was hit.
 DevelopedFilm develop(const Device& device, const Film& film, uint64_t samples, uint32_t batches);
 
 }  // namespace wavepath

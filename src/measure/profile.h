@@ -10,10 +10,10 @@
 namespace wavepath {
 
 struct ProfileRow {
-    std::string name;      // of the kernel
+    std::string name;  // of the kernel
     uint64_t launches = 0;
     uint64_t items = 0;
-    double seconds = 0;    // between start and end on the device
+    double seconds = 0;  // between start and end on the device
 };
 
 class Profile {
@@ -22,8 +22,8 @@ class Profile {
     std::size_t row(const std::string& name);
     void add(std::size_t row, uint64_t items, const cl::Event& event);
 
-    // Reads the times of launches that have finished; to be called after a blocking read. Where the driver returns
-    // zeros, `device_clock` turns false and times stay 0.
+    // Reads the times of launches that have finished; to be called after a blocking read. Where the
+    // driver returns zeros, `device_clock` turns false and times stay 0.
     void collect();
 
     const std::vector<ProfileRow>& rows() const { return rows_; }

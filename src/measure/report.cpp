@@ -105,7 +105,8 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
           {"occlusion", result.rays.connections},
           {"per_s", number(rays / result.times.render)}}},
         {"path_lengths", result.rays.path_lengths},
-        {"mean_path_length", number(static_cast<double>(result.rays.closest) / static_cast<double>(paths))},
+        {"mean_path_length",
+         number(static_cast<double>(result.rays.closest) / static_cast<double>(paths))},
         {"relative_error", number(result.film.relative_error)},
         {"bias", job.settings.termination.bias()},
         {"nonfinite_samples", result.film.nonfinite.samples},
@@ -119,7 +120,9 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
     };
     if (result.film.nonfinite.samples > 0)
         report["first_nonfinite"] = {
-            {"x", result.film.nonfinite.x}, {"y", result.film.nonfinite.y}, {"sample", result.film.nonfinite.sample}};
+            {"x", result.film.nonfinite.x},
+            {"y", result.film.nonfinite.y},
+            {"sample", result.film.nonfinite.sample}};
     report["profile"] = profile_report(result);
     return report;
 }

@@ -11,7 +11,8 @@ namespace wavepath {
 inline constexpr int report_schema = 1;
 
 // Non-finite numbers become null.
-nlohmann::ordered_json render_report(const Device& device, const RenderJob& job, const RenderResult& result);
+nlohmann::ordered_json render_report(
+    const Device& device, const RenderJob& job, const RenderResult& result);
 
 // Kernel rows with shares and rates, and the time outside kernels.
 nlohmann::ordered_json profile_report(const RenderResult& result);

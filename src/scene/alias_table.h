@@ -8,10 +8,11 @@ namespace wavepath {
 struct AliasRow {
     float threshold = 1;  // below: this entry, else `alias`
     uint32_t alias = 0;
-    float pmf = 0;        // what the entry's weight comes to
+    float pmf = 0;  // what the entry's weight comes to
 };
 
-// Walker's alias method, built in O(n) [Vose 1991]. Weights are finite and >= 0; all zero means uniform.
+// Walker's alias method, built in O(n) [Vose 1991]. Weights are finite and >= 0; all zero means
+// uniform.
 std::vector<AliasRow> build_alias_table(const std::vector<double>& weights);
 
 }  // namespace wavepath

@@ -3,8 +3,8 @@
 #include "error.h"
 #include "scene/transform.h"
 
-#include <cmath>
 #include <fmt/ranges.h>
+#include <cmath>
 #include <numbers>
 
 namespace wavepath {
@@ -45,7 +45,8 @@ void store(float& x, float& y, float& z, const Vec3d& v) {
 
 Camera look_at(const Vec3d& eye, const Vec3d& target, double y_fov) {
     const Vec3d back = minus(eye, target);
-    if (!(length(back) > 0)) throw Error("--look-at: eye and target are the same point; move one of them");
+    if (!(length(back) > 0))
+        throw Error("--look-at: eye and target are the same point; move one of them");
     const Vec3d z = normalized(back);
     const Vec3d up = std::hypot(z[0], z[2]) > 1e-6 ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
     const Vec3d x = normalized(cross(up, z));
@@ -53,7 +54,8 @@ Camera look_at(const Vec3d& eye, const Vec3d& target, double y_fov) {
     Camera camera;
     camera.name = "look-at";
     camera.y_fov = y_fov;
-    camera.to_world = {x[0], x[1], x[2], 0, y[0], y[1], y[2], 0, z[0], z[1], z[2], 0, eye[0], eye[1], eye[2], 1};
+    camera.to_world = {x[0], x[1], x[2], 0, y[0],   y[1],   y[2],   0,
+                       z[0], z[1], z[2], 0, eye[0], eye[1], eye[2], 1};
     return camera;
 }
 
@@ -69,19 +71,28 @@ Camera choose_camera(const Scene& scene, const std::string& selector) {
         if (camera.name == selector) return camera;
         names.push_back(camera.name);
     }
-    const bool is_number = selector.find_first_not_of("0123456789") == std::string::npos && selector.size() < 9;
-    if (is_number && std::stoul(selector) < scene.cameras.size()) return scene.cameras[std::stoul(selector)];
+    const bool is_number =
+        selector.find_first_not_of("0123456789") == std::string::npos && selector.size() < 9;
+    if (is_number && std::stoul(selector) < scene.cameras.size())
+        return scene.cameras[std::stoul(selector)];
     throw Error(
-        "--camera {}: {} has {} camera(s){}{}; name one of them by index or name, or use --look-at", selector, scene.name,
-        scene.cameras.size(), names.empty() ? "" : ": ", fmt::join(names, ", "));
+        "--camera {}: {} has {} camera(s){}{}; name one of them by index or name, or use --look-at",
+        selector, scene.name, scene.cameras.size(), names.empty() ? "" : ": ",
+        fmt::join(names, ", "));
 }
 
-void set_camera(RenderParams& params, const Camera& camera, const NormalisedScene& geometry, uint32_t width, uint32_t height) {
+void set_camera(
+    RenderParams& params,
+    const Camera& camera,
+    const NormalisedScene& geometry,
+    uint32_t width,
+    uint32_t height) {
     const Vec3d x = normalized(axis(camera.to_world, 0));
     const Vec3d y = normalized(axis(camera.to_world, 1));
     const Vec3d forward = times(normalized(axis(camera.to_world, 2)), -1);
     const Vec3d eye = geometry.to_normalised(axis(camera.to_world, 3));
-    const double half_height = camera.orthographic ? camera.y_mag / geometry.extent.metres : std::tan(camera.y_fov / 2);
+    const double half_height =
+        camera.orthographic ? camera.y_mag / geometry.extent.metres : std::tan(camera.y_fov / 2);
     const double pixel = 2 * half_height / height;
     const Vec3d to_corner = plus(times(x, -0.5 * pixel * width), times(y, half_height));
     const Vec3d corner = plus(to_corner, camera.orthographic ? eye : forward);

@@ -21,7 +21,9 @@ double triangle_area(const std::vector<float>& positions, std::size_t triangle) 
     const float* p = &positions[9 * triangle];
     const double u[3] = {double{p[3]} - p[0], double{p[4]} - p[1], double{p[5]} - p[2]};
     const double v[3] = {double{p[6]} - p[0], double{p[7]} - p[1], double{p[8]} - p[2]};
-    return 0.5 * std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+    return 0.5 *
+           std::hypot(
+               u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
 }
 
 DeviceLight punctual_light(const PunctualLight& light) {
@@ -49,21 +51,26 @@ DeviceLight punctual_light(const PunctualLight& light) {
 
 double punctual_power(const PunctualLight& light) {
     switch (light.kind) {
-        case LightKind::point: return 4 * std::numbers::pi * luminance(light.intensity);
+        case LightKind::point:
+            return 4 * std::numbers::pi * luminance(light.intensity);
         case LightKind::spot:
-            return 2 * std::numbers::pi * (1 - 0.5 * (std::cos(light.inner_cone) + std::cos(light.outer_cone))) *
+            return 2 * std::numbers::pi *
+                   (1 - 0.5 * (std::cos(light.inner_cone) + std::cos(light.outer_cone))) *
                    luminance(light.intensity);
-        case LightKind::directional: return std::numbers::pi * scene_radius * scene_radius * luminance(light.intensity);
+        case LightKind::directional:
+            return std::numbers::pi * scene_radius * scene_radius * luminance(light.intensity);
     }
     return 0;
 }
 
-// Luminance of a texel, averaged over its square as the bilinear lookup sees it: positive wherever the lookup is.
+// Luminance of a texel, averaged over its square as the bilinear lookup sees it: positive wherever
+// the lookup is.
 double texel_weight(const Environment& map, uint32_t x, uint32_t y) {
     constexpr double tent[3] = {0.125, 0.75, 0.125};
     double sum = 0;
     for (int dy = -1; dy <= 1; ++dy) {
-        const auto row = static_cast<uint32_t>(std::clamp(static_cast<int>(y) + dy, 0, static_cast<int>(map.height) - 1));
+        const auto row = static_cast<uint32_t>(
+            std::clamp(static_cast<int>(y) + dy, 0, static_cast<int>(map.height) - 1));
         for (int dx = -1; dx <= 1; ++dx) {
             const uint32_t column = (x + map.width + static_cast<uint32_t>(dx + 1) - 1) % map.width;
             const float* texel = &map.pixels[3 * (std::size_t{row} * map.width + column)];
@@ -115,7 +122,10 @@ double append_map(std::vector<EnvironmentEntry>& entries, const Environment& map
 }  // namespace
 
 LightTables build_light_tables(
-    const Scene& scene, const NormalisedScene& geometry, LightChoice choice, bool sample_constant_environment) {
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    LightChoice choice,
+    bool sample_constant_environment) {
     LightTables tables;
     std::vector<double> weights;
     tables.triangle_lights.assign(geometry.triangle_count(), NO_LIGHT);
@@ -153,7 +163,8 @@ LightTables build_light_tables(
             DeviceLight light{};
             light.kind = LIGHT_ENVIRONMENT;
             tables.lights.push_back(light);
-            const double power = 4 * std::numbers::pi * std::numbers::pi * scene_radius * scene_radius * mean;
+            const double power =
+                4 * std::numbers::pi * std::numbers::pi * scene_radius * scene_radius * mean;
             weights.push_back(choice == LightChoice::power ? power : 1.0);
         }
     }

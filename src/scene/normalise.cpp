@@ -20,10 +20,12 @@ double dot(const Vec3d& a, const Vec3d& b) {
 }
 
 struct Bounds {
-    Vec3d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-              std::numeric_limits<double>::infinity()};
-    Vec3d high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-               -std::numeric_limits<double>::infinity()};
+    Vec3d low{
+        std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+        std::numeric_limits<double>::infinity()};
+    Vec3d high{
+        -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity()};
 
     void extend(const Vec3d& p) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -35,14 +37,17 @@ struct Bounds {
 
 Vec3d transform_point(const Matrix4& m, const Vec3d& p) {
     Vec3d r;
-    for (std::size_t k = 0; k < 3; ++k) r[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
+    for (std::size_t k = 0; k < 3; ++k)
+        r[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
     return r;
 }
 
-// By the cofactors: the inverse transpose up to a factor, which also serves flattened nodes. The factor's sign is the
-// determinant's.
+// By the cofactors: the inverse transpose up to a factor, which also serves flattened nodes. The
+// factor's sign is the determinant's.
 Vec3d transform_normal(const Matrix4& m, const Vec3d& n) {
-    const Vec3d columns[3] = {cross(axis(m, 1), axis(m, 2)), cross(axis(m, 2), axis(m, 0)), cross(axis(m, 0), axis(m, 1))};
+    const Vec3d columns[3] = {
+        cross(axis(m, 1), axis(m, 2)), cross(axis(m, 2), axis(m, 0)),
+        cross(axis(m, 0), axis(m, 1))};
     const double sign = dot(axis(m, 0), columns[0]) < 0 ? -1 : 1;
     Vec3d r{0, 0, 0};
     for (std::size_t c = 0; c < 3; ++c)
@@ -75,15 +80,23 @@ void append(std::vector<float>& to, const Vec3d& v) {
     for (const double x : v) to.push_back(static_cast<float>(x));
 }
 
-// Adds the triangles of one instance; corners are rounded to float first, as the device will see them.
-void append_instance(NormalisedScene& out, const Primitive& primitive, const Matrix4& to_world, bool normals, bool colors) {
+// Adds the triangles of one instance; corners are rounded to float first, as the device will see
+// them.
+void append_instance(
+    NormalisedScene& out,
+    const Primitive& primitive,
+    const Matrix4& to_world,
+    bool normals,
+    bool colors) {
     const bool mirrored = dot(axis(to_world, 0), cross(axis(to_world, 1), axis(to_world, 2))) < 0;
     for (std::size_t t = 0; t + 2 < primitive.indices.size(); t += 3) {
-        std::array<uint32_t, 3> corners{primitive.indices[t], primitive.indices[t + 1], primitive.indices[t + 2]};
+        std::array<uint32_t, 3> corners{
+            primitive.indices[t], primitive.indices[t + 1], primitive.indices[t + 2]};
         if (mirrored) std::swap(corners[1], corners[2]);
         std::array<Vec3d, 3> p;
         for (std::size_t c = 0; c < 3; ++c) {
-            p[c] = out.to_normalised(transform_point(to_world, vertex(primitive.positions, corners[c])));
+            p[c] = out.to_normalised(
+                transform_point(to_world, vertex(primitive.positions, corners[c])));
             for (double& x : p[c]) x = static_cast<float>(x);
         }
         const Vec3d face = face_cross(p);
@@ -96,10 +109,15 @@ void append_instance(NormalisedScene& out, const Primitive& primitive, const Mat
         if (normals) {
             for (const uint32_t c : corners)
                 append(
-                    out.normals, primitive.normals.empty() ? normalized(face) : transform_normal(to_world, vertex(primitive.normals, c)));
+                    out.normals, primitive.normals.empty()
+                                     ? normalized(face)
+                                     : transform_normal(to_world, vertex(primitive.normals, c)));
         }
         if (colors)
-            for (const uint32_t c : corners) append(out.colors, primitive.colors.empty() ? Vec3d{1, 1, 1} : vertex(primitive.colors, c));
+            for (const uint32_t c : corners)
+                append(
+                    out.colors,
+                    primitive.colors.empty() ? Vec3d{1, 1, 1} : vertex(primitive.colors, c));
     }
 }
 
@@ -107,7 +125,8 @@ PunctualLight normalised_light(const NormalisedScene& space, PunctualLight light
     light.position = space.to_normalised(light.position);
     light.range /= space.extent.metres;
     if (light.kind != LightKind::directional)
-        for (float& channel : light.intensity) channel = static_cast<float>(channel / (space.extent.metres * space.extent.metres));
+        for (float& channel : light.intensity)
+            channel = static_cast<float>(channel / (space.extent.metres * space.extent.metres));
     return light;
 }
 
@@ -128,7 +147,9 @@ Extent extent_of(const Scene& scene) {
         extent.metres = std::max(extent.metres, bounds.high[k] - bounds.low[k]);
     }
     if (!std::isfinite(extent.metres) || extent.metres <= 0)
-        throw Error("{}: the scene's extent is {} m; give it triangles with an area", scene.name, extent.metres);
+        throw Error(
+            "{}: the scene's extent is {} m; give it triangles with an area", scene.name,
+            extent.metres);
     return extent;
 }
 
@@ -142,9 +163,12 @@ NormalisedScene normalise(const Scene& scene) {
         colors = colors || !scene.primitives[instance.primitive].colors.empty();
     }
     for (const Instance& instance : scene.instances)
-        append_instance(out, scene.primitives[instance.primitive], instance.to_world, normals, colors);
-    if (out.materials.empty()) throw Error("{}: every triangle has zero area; there is nothing to render", scene.name);
-    for (const PunctualLight& light : scene.lights) out.lights.push_back(normalised_light(out, light));
+        append_instance(
+            out, scene.primitives[instance.primitive], instance.to_world, normals, colors);
+    if (out.materials.empty())
+        throw Error("{}: every triangle has zero area; there is nothing to render", scene.name);
+    for (const PunctualLight& light : scene.lights)
+        out.lights.push_back(normalised_light(out, light));
     return out;
 }
 

@@ -16,23 +16,26 @@ struct Extent {
 // Throws Error where the extent is zero or not finite.
 Extent extent_of(const Scene& scene);
 
-// The scene's triangles in one list, moved and scaled so that their bounding box is centred at the origin and its
-// longest side is 1: offsets and epsilons are then free of scale. world = extent.centre + extent.metres * normalised.
+// The scene's triangles in one list, moved and scaled so that their bounding box is centred at the
+// origin and its longest side is 1: offsets and epsilons are then free of scale. world =
+// extent.centre + extent.metres * normalised.
 struct NormalisedScene {
     Extent extent;
-    std::vector<float> positions;  // 9 a triangle
-    std::vector<float> normals;    // 9 a triangle, or empty: every triangle is flat
-    std::vector<float> colors;     // 9 a triangle, or empty: all white
-    std::vector<uint32_t> materials;    // one a triangle
-    std::vector<PunctualLight> lights;  // positions and ranges normalised; point and spot intensity / metres^2
-    std::size_t dropped = 0;            // triangles of zero area, left out
+    std::vector<float> positions;     // 9 a triangle
+    std::vector<float> normals;       // 9 a triangle, or empty: every triangle is flat
+    std::vector<float> colors;        // 9 a triangle, or empty: all white
+    std::vector<uint32_t> materials;  // one a triangle
+    std::vector<PunctualLight>
+        lights;  // positions and ranges normalised; point and spot intensity / metres^2
+    std::size_t dropped = 0;  // triangles of zero area, left out
 
     std::size_t triangle_count() const { return materials.size(); }
     Vec3d to_normalised(const Vec3d& world) const;
 };
 
-// Applies node transforms in double. A mirroring transform (negative determinant) reverses the winding, so that fronts
-// stay fronts. Throws Error where nothing with an area is left or the extent is not finite.
+// Applies node transforms in double. A mirroring transform (negative determinant) reverses the
+// winding, so that fronts stay fronts. Throws Error where nothing with an area is left or the
+// extent is not finite.
 NormalisedScene normalise(const Scene& scene);
 
 }  // namespace wavepath

@@ -1,4 +1,5 @@
-// What a renderer needs to know of a glTF file: plain data, in the file's own units (metres, world space).
+// What a renderer needs to know of a glTF file: plain data, in the file's own units (metres, world
+// space).
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@
 namespace wavepath {
 
 using Vec3d = std::array<double, 3>;
-using Rgb = std::array<float, 3>;     // linear, Rec. 709 primaries
+using Rgb = std::array<float, 3>;        // linear, Rec. 709 primaries
 using Matrix4 = std::array<double, 16>;  // column-major, as glTF stores it
 
 inline constexpr Matrix4 identity_matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -18,11 +19,11 @@ inline constexpr Matrix4 identity_matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 
 // glTF 2.0 metallic-roughness with KHR_materials_ior, _specular (factors) and _emissive_strength.
 struct Material {
     std::string name;
-    Rgb base_color{1, 1, 1};      // [1]
-    float metallic = 1;           // [1] 0..1
-    float roughness = 1;          // [1] 0..1, perceptual; alpha = roughness^2
-    float ior = 1.5F;             // [1] >= 1, or 0: Fresnel reflectance 1 (legacy mode of KHR_materials_ior)
-    float specular = 1;           // [1] specularFactor: weight of the dielectric's specular layer
+    Rgb base_color{1, 1, 1};  // [1]
+    float metallic = 1;       // [1] 0..1
+    float roughness = 1;      // [1] 0..1, perceptual; alpha = roughness^2
+    float ior = 1.5F;    // [1] >= 1, or 0: Fresnel reflectance 1 (legacy mode of KHR_materials_ior)
+    float specular = 1;  // [1] specularFactor: weight of the dielectric's specular layer
     Rgb specular_color{1, 1, 1};  // [1] specularColorFactor: tints its F0
     Rgb emission{0, 0, 0};        // radiance: emissiveFactor * emissiveStrength
     bool double_sided = false;    // true: emits from both faces
@@ -32,27 +33,27 @@ struct Material {
 
 // One glTF mesh primitive as a list of triangles in local space.
 struct Primitive {
-    std::string name;                // "mesh name" or "mesh 3", for messages
-    std::vector<float> positions;    // 3 a vertex [m]
-    std::vector<float> normals;      // 3 a vertex, unit, or empty: flat shading
-    std::vector<float> colors;       // 3 a vertex, linear, or empty: white
-    std::vector<uint32_t> indices;   // 3 a triangle
-    uint32_t material = 0;           // into Scene::materials
+    std::string name;               // "mesh name" or "mesh 3", for messages
+    std::vector<float> positions;   // 3 a vertex [m]
+    std::vector<float> normals;     // 3 a vertex, unit, or empty: flat shading
+    std::vector<float> colors;      // 3 a vertex, linear, or empty: white
+    std::vector<uint32_t> indices;  // 3 a triangle
+    uint32_t material = 0;          // into Scene::materials
 };
 
 struct Instance {
-    uint32_t primitive = 0;             // into Scene::primitives
+    uint32_t primitive = 0;  // into Scene::primitives
     Matrix4 to_world = identity_matrix;
 };
 
 struct Camera {
     std::string name;
     bool orthographic = false;
-    double y_fov = 0.7853981633974483;  // [rad] perspective
-    double x_mag = 1;                   // [m] orthographic half width
-    double y_mag = 1;                   // [m] orthographic half height
-    double aspect_ratio = 0;            // width / height; 0: the image's
-    Matrix4 to_world = identity_matrix; // looks along its local -Z, +Y up
+    double y_fov = 0.7853981633974483;   // [rad] perspective
+    double x_mag = 1;                    // [m] orthographic half width
+    double y_mag = 1;                    // [m] orthographic half height
+    double aspect_ratio = 0;             // width / height; 0: the image's
+    Matrix4 to_world = identity_matrix;  // looks along its local -Z, +Y up
 };
 
 enum class LightKind { point, spot, directional };
@@ -61,33 +62,34 @@ enum class LightKind { point, spot, directional };
 struct PunctualLight {
     std::string name;
     LightKind kind = LightKind::point;
-    Rgb intensity{1, 1, 1};    // color * intensity: [W/sr] point and spot, [W/m^2] directional
-    Vec3d position{0, 0, 0};   // [m]
-    Vec3d direction{0, 0, -1}; // unit, the way the light shines
-    double range = 0;          // [m] 0: unlimited
-    double inner_cone = 0;     // [rad]
+    Rgb intensity{1, 1, 1};     // color * intensity: [W/sr] point and spot, [W/m^2] directional
+    Vec3d position{0, 0, 0};    // [m]
+    Vec3d direction{0, 0, -1};  // unit, the way the light shines
+    double range = 0;           // [m] 0: unlimited
+    double inner_cone = 0;      // [rad]
     double outer_cone = 0.7853981633974483;  // [rad]
 };
 
 // Radiance from infinity. Lookup: u = atan2(z, x) / 2 pi + 0.5, v = acos(y) / pi from the top row.
 struct Environment {
-    Rgb radiance{0, 0, 0};      // of a constant environment, or the scale of `pixels`
-    uint32_t width = 0;         // 0: constant
+    Rgb radiance{0, 0, 0};  // of a constant environment, or the scale of `pixels`
+    uint32_t width = 0;     // 0: constant
     uint32_t height = 0;
     std::vector<float> pixels;  // 3 a texel, linear, row by row from the top
 };
 
 struct Scene {
-    std::string name;                     // file stem
-    std::vector<Material> materials;      // at least one
+    std::string name;                 // file stem
+    std::vector<Material> materials;  // at least one
     std::vector<Primitive> primitives;
-    std::vector<Instance> instances;      // of primitives, in depth-first order of the node tree
-    std::vector<Camera> cameras;          // of the default scene, in depth-first order
-    std::vector<PunctualLight> lights;    // of the default scene, in depth-first order
+    std::vector<Instance> instances;    // of primitives, in depth-first order of the node tree
+    std::vector<Camera> cameras;        // of the default scene, in depth-first order
+    std::vector<PunctualLight> lights;  // of the default scene, in depth-first order
     std::optional<Environment> environment;
-    std::vector<std::string> ignored;     // what the file asks for and this program does not do, one line each, said once
+    std::vector<std::string>
+        ignored;  // what the file asks for and this program does not do, one line each, said once
 
-    std::size_t triangle_count() const;   // instances expanded
+    std::size_t triangle_count() const;  // instances expanded
 };
 
 }  // namespace wavepath

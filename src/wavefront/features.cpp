@@ -2,14 +2,16 @@
 
 #include "scene/device_material.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace wavepath {
 
 std::string Features::defines() const {
     std::string text;
-    const auto define = [&](const char* name, bool value) { text += fmt::format("#define {} {}\n", name, value ? 1 : 0); };
+    const auto define = [&](const char* name, bool value) {
+        text += fmt::format("#define {} {}\n", name, value ? 1 : 0);
+    };
     define("HAS_VERTEX_NORMALS", vertex_normals);
     define("HAS_VERTEX_COLORS", vertex_colors);
     define("HAS_SPECULAR", specular);
@@ -27,12 +29,19 @@ std::string Features::defines() const {
 }
 
 Features features_of(
-    const Scene& scene, const NormalisedScene& geometry, const LightTables& lights, const Method& method, uint32_t split_levels, bool sobol) {
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    const LightTables& lights,
+    const Method& method,
+    uint32_t split_levels,
+    bool sobol) {
     Features f;
     f.vertex_normals = !geometry.normals.empty();
     f.vertex_colors = !geometry.colors.empty();
-    f.specular = std::ranges::any_of(geometry.materials, [&](uint32_t m) { return reflects_specularly(scene.materials[m]); });
-    f.area_lights = std::ranges::any_of(lights.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
+    f.specular = std::ranges::any_of(
+        geometry.materials, [&](uint32_t m) { return reflects_specularly(scene.materials[m]); });
+    f.area_lights =
+        std::ranges::any_of(lights.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
     f.punctual_lights = !geometry.lights.empty();
     f.environment = scene.environment.has_value();
     f.environment_map = f.environment && scene.environment->width > 0;

@@ -30,6 +30,11 @@ struct Features {
 };
 
 Features features_of(
-    const Scene& scene, const NormalisedScene& geometry, const LightTables& lights, const Method& method, uint32_t split_levels, bool sobol);
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    const LightTables& lights,
+    const Method& method,
+    uint32_t split_levels,
+    bool sobol);
 
 }  // namespace wavepath

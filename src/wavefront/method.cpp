@@ -32,16 +32,22 @@ const std::vector<Method>& methods() {
 
 const Method& method_named(const std::string& name) {
     const auto found = std::ranges::find(methods(), name, &Method::name);
-    if (found == methods().end()) throw Error("--method {}: no such method; choose path, direct, bsdf, direct-bsdf or mis", name);
+    if (found == methods().end())
+        throw Error(
+            "--method {}: no such method; choose path, direct, bsdf, direct-bsdf or mis", name);
     return *found;
 }
 
 std::string Termination::text() const {
     switch (kind) {
-        case TerminationKind::zero: return "zero";
-        case TerminationKind::depth: return fmt::format("depth:{}", depth);
-        case TerminationKind::roulette: return "roulette";
-        case TerminationKind::roulette_constant: return fmt::format("roulette:{}", survival);
+        case TerminationKind::zero:
+            return "zero";
+        case TerminationKind::depth:
+            return fmt::format("depth:{}", depth);
+        case TerminationKind::roulette:
+            return "roulette";
+        case TerminationKind::roulette_constant:
+            return fmt::format("roulette:{}", survival);
     }
     return {};
 }
@@ -58,22 +64,30 @@ Termination parse_termination(const std::string& text) {
     } else if (text == "roulette") {
         t.kind = TerminationKind::roulette;
     } else if (
-        text.starts_with("depth:") && parse_number(std::string_view(text).substr(6), t.depth) && t.depth < MAX_SCATTERINGS) {
+        text.starts_with("depth:") && parse_number(std::string_view(text).substr(6), t.depth) &&
+        t.depth < MAX_SCATTERINGS) {
         t.kind = TerminationKind::depth;
     } else if (
-        text.starts_with("roulette:") && parse_number(std::string_view(text).substr(9), t.survival) && t.survival > 0 &&
+        text.starts_with("roulette:") &&
+        parse_number(std::string_view(text).substr(9), t.survival) && t.survival > 0 &&
         t.survival <= 1) {
         t.kind = TerminationKind::roulette_constant;
     } else {
-        throw Error("--termination {}: use zero, depth:D (0 <= D < {}), roulette, or roulette:q (0 < q <= 1)", text, MAX_SCATTERINGS);
+        throw Error(
+            "--termination {}: use zero, depth:D (0 <= D < {}), roulette, or roulette:q (0 < q <= "
+            "1)",
+            text, MAX_SCATTERINGS);
     }
     return t;
 }
 
 uint32_t parse_splits(const std::string& text) {
     uint32_t splits = 0;
-    if (text.starts_with("1,1,") && parse_number(std::string_view(text).substr(4), splits) && splits >= 1 && splits <= 4096) return splits;
-    throw Error("--splits {}: use 1,1,S with S directions from a surface point (1 <= S <= 4096)", text);
+    if (text.starts_with("1,1,") && parse_number(std::string_view(text).substr(4), splits) &&
+        splits >= 1 && splits <= 4096)
+        return splits;
+    throw Error(
+        "--splits {}: use 1,1,S with S directions from a surface point (1 <= S <= 4096)", text);
 }
 
 }  // namespace wavepath

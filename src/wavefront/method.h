@@ -1,4 +1,5 @@
-// An estimator as data: the lecture notes' methods, their terminations, and the cures (docs/methods.md).
+// An estimator as data: the lecture notes' methods, their terminations, and the cures
+// (docs/methods.md).
 #pragma once
 
 #include "scene/light_tables.h"
@@ -11,9 +12,10 @@ namespace wavepath {
 
 struct Method {
     std::string name;
-    bool sample_lights = false;  // choose points on lights; emission met by chance counts only where that cannot
-    bool sample_lobes = false;   // directions follow the bsdf; else uniform in projected solid angle
-    bool weigh_both = false;     // both, by the power heuristic
+    bool sample_lights =
+        false;  // choose points on lights; emission met by chance counts only where that cannot
+    bool sample_lobes = false;  // directions follow the bsdf; else uniform in projected solid angle
+    bool weigh_both = false;    // both, by the power heuristic
     LightChoice light_choice = LightChoice::area;
 };
 
@@ -27,15 +29,16 @@ enum class TerminationKind { zero, depth, roulette, roulette_constant };
 
 struct Termination {
     TerminationKind kind = TerminationKind::roulette;
-    uint32_t depth = 0;   // of `depth`: most scatterings between camera and light
-    float survival = 1;   // of `roulette_constant`: chance to go on
+    uint32_t depth = 0;  // of `depth`: most scatterings between camera and light
+    float survival = 1;  // of `roulette_constant`: chance to go on
 
     std::string text() const;  // as the command line spells it
     // What it does to the expected value; empty: nothing.
     std::string bias() const;
 };
 
-// "zero", "depth:D" with D >= 0, "roulette", "roulette:q" with 0 < q <= 1. Throws Error for anything else.
+// "zero", "depth:D" with D >= 0, "roulette", "roulette:q" with 0 < q <= 1. Throws Error for
+// anything else.
 Termination parse_termination(const std::string& text);
 
 // "1,1,S": S directions from a surface point. Throws Error for anything else.

@@ -18,22 +18,29 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
       stride(padded(slot_count)),
       rays(device, std::size_t{RAY_PLANES} * stride, "path pool"),
       hits(device, std::size_t{HIT_PLANES} * stride, "path pool"),
-      surfaces(device, std::size_t{features.vertex_normals ? SURFACE_PLANES : SURFACE_PLANES_FLAT} * stride, "path pool"),
+      surfaces(
+          device,
+          std::size_t{features.vertex_normals ? SURFACE_PLANES : SURFACE_PLANES_FLAT} * stride,
+          "path pool"),
       throughputs(device, std::size_t{THROUGHPUT_PLANES} * stride, "path pool"),
       radiances(device, std::size_t{RADIANCE_PLANES} * stride, "path pool"),
-      shadows(device, features.sample_lights ? std::size_t{SHADOW_PLANES} * stride : 0, "path pool"),
+      shadows(
+          device, features.sample_lights ? std::size_t{SHADOW_PLANES} * stride : 0, "path pool"),
       branches(device, std::size_t{BRANCH_PLANES} * features.split_levels * stride, "path pool"),
-      ids(device, std::size_t{features.split_levels > 0 ? ID_PLANES : ID_PLANES_UNSPLIT} * stride, "path pool"),
+      ids(device,
+          std::size_t{features.split_levels > 0 ? ID_PLANES : ID_PLANES_UNSPLIT} * stride,
+          "path pool"),
       fates(device, slots, "path pool"),
       chunk_states(device, chunks(), "path pool"),
       holes(device, slots, "path pool"),
       movers(device, slots, "path pool"),
-      statistics(device, std::vector<cl_uint>(std::size_t{STATISTICS} * chunks(), 0), "statistics") {}
+      statistics(
+          device, std::vector<cl_uint>(std::size_t{STATISTICS} * chunks(), 0), "statistics") {}
 
 std::size_t PathPool::bytes() const {
-    return rays.bytes() + hits.bytes() + surfaces.bytes() + throughputs.bytes() + radiances.bytes() + shadows.bytes() +
-           branches.bytes() + ids.bytes() + fates.bytes() + chunk_states.bytes() + holes.bytes() + movers.bytes() +
-           statistics.bytes();
+    return rays.bytes() + hits.bytes() + surfaces.bytes() + throughputs.bytes() +
+           radiances.bytes() + shadows.bytes() + branches.bytes() + ids.bytes() + fates.bytes() +
+           chunk_states.bytes() + holes.bytes() + movers.bytes() + statistics.bytes();
 }
 
 }  // namespace wavepath

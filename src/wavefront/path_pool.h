@@ -11,7 +11,8 @@ struct PathPool {
     PathPool(const Device& device, uint32_t slots, const Features& features);
 
     uint32_t slots;
-    uint32_t stride;  // of the planes: the slots, padded so that planes do not fall on the same cache sets
+    uint32_t stride;  // of the planes: the slots, padded so that planes do not fall on the same
+                      // cache sets
     DeviceArray<cl_float> rays, hits, surfaces, throughputs, radiances;
     DeviceArray<cl_float> shadows;   // only where lights are sampled
     DeviceArray<cl_float> branches;  // only with --splits

@@ -9,7 +9,11 @@ namespace {
 
 template <typename StageType>
 std::optional<StageType> stage_if(
-    bool needed, const cl::Program& program, const std::string& name, uint32_t local_size, Profile& profile) {
+    bool needed,
+    const cl::Program& program,
+    const std::string& name,
+    uint32_t local_size,
+    Profile& profile) {
     if (!needed) return std::nullopt;
     return std::optional<StageType>(std::in_place, program, name, local_size, profile);
 }
@@ -17,19 +21,28 @@ std::optional<StageType> stage_if(
 }  // namespace
 
 std::vector<std::string> QueueManager::kernel_files(const Features& features) {
-    std::vector<std::string> names{"assign_units", "generate_rays", "intersect", "scatter_queue", "move_paths", "interact", "first_hit"};
+    std::vector<std::string> names{"assign_units", "generate_rays", "intersect", "scatter_queue",
+                                   "move_paths",   "interact",      "first_hit"};
     if (features.environment) names.emplace_back("shade_miss");
     if (features.area_lights) names.emplace_back("shade_emission");
     if (features.sample_lights) names.insert(names.end(), {"direct_light", "occlusion"});
-    names.insert(names.end(), {"sample_indirect", "roulette_compact", "scan_queue", "accumulate", "fold_film"});
+    names.insert(
+        names.end(),
+        {"sample_indirect", "roulette_compact", "scan_queue", "accumulate", "fold_film"});
     if (features.split_levels > 0) names.emplace_back("resume_branch");
     for (std::string& name : names) name = "stages/" + name + ".cl";
     return names;
 }
 
 QueueManager::QueueManager(
-    const Device& device, const cl::Program& program, const Features& features, const SceneBuffers& scene, uint32_t slots,
-    uint64_t max_cells, WorkGroups groups, Profile& profile)
+    const Device& device,
+    const cl::Program& program,
+    const Features& features,
+    const SceneBuffers& scene,
+    uint32_t slots,
+    uint64_t max_cells,
+    WorkGroups groups,
+    Profile& profile)
     : device_(device),
       features_(features),
       scene_(scene),
@@ -44,16 +57,22 @@ QueueManager::QueueManager(
       intersect_(program, "intersect", features.rays_per_item > 1 ? 1 : groups.traversal, profile),
       interact_(program, "interact", groups.streaming, profile),
       first_hit_(program, "first_hit", groups.streaming, profile),
-      shade_miss_(stage_if<decltype(shade_miss_)::value_type>(features.environment, program, "shade_miss", groups.streaming, profile)),
-      shade_emission_(
-          stage_if<decltype(shade_emission_)::value_type>(features.area_lights, program, "shade_emission", groups.streaming, profile)),
-      direct_light_(
-          stage_if<decltype(direct_light_)::value_type>(features.sample_lights, program, "direct_light", groups.streaming, profile)),
-      occlusion_(stage_if<decltype(occlusion_)::value_type>(features.sample_lights, program, "occlusion", features.rays_per_item > 1 ? 1 : groups.traversal, profile)),
+      shade_miss_(stage_if<decltype(shade_miss_)::value_type>(
+          features.environment, program, "shade_miss", groups.streaming, profile)),
+      shade_emission_(stage_if<decltype(shade_emission_)::value_type>(
+          features.area_lights, program, "shade_emission", groups.streaming, profile)),
+      direct_light_(stage_if<decltype(direct_light_)::value_type>(
+          features.sample_lights, program, "direct_light", groups.streaming, profile)),
+      occlusion_(stage_if<decltype(occlusion_)::value_type>(
+          features.sample_lights,
+          program,
+          "occlusion",
+          features.rays_per_item > 1 ? 1 : groups.traversal,
+          profile)),
       sample_indirect_(program, "sample_indirect", groups.streaming, profile),
       roulette_compact_(program, "roulette_compact", groups.streaming, profile),
-      resume_branch_(
-          stage_if<decltype(resume_branch_)::value_type>(features.split_levels > 0, program, "resume_branch", groups.streaming, profile)),
+      resume_branch_(stage_if<decltype(resume_branch_)::value_type>(
+          features.split_levels > 0, program, "resume_branch", groups.streaming, profile)),
       scan_queue_(program, "scan_queue", groups.traversal, profile),
       scatter_queue_(program, "scatter_queue", groups.traversal, profile),
       move_paths_(program, "move_paths", groups.traversal, profile),
@@ -62,34 +81,60 @@ QueueManager::QueueManager(
 
 void QueueManager::render(const Window& window, RenderParams params, Film& film) {
     start(window, params);
-    uint32_t slots = std::min(pool_.slots, static_cast<uint32_t>(window.pixels * window.rows.size()));
+    uint32_t slots =
+        std::min(pool_.slots, static_cast<uint32_t>(window.pixels * window.rows.size()));
     Work work{slots, 0};
-    assign_units_.launch(device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.radiances);
+    assign_units_.launch(
+        device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.radiances);
     while (work.active > 0) {
-        generate_rays_.launch(device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays, pool_.throughputs, pool_.radiances);
+        generate_rays_.launch(
+            device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays,
+            pool_.throughputs, pool_.radiances);
         const uint32_t ray_items = (slots + features_.rays_per_item - 1) / features_.rays_per_item;
-        intersect_.launch(device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, pool_.rays, pool_.hits);
+        intersect_.launch(
+            device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, pool_.rays,
+            pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
-        interact_.launch(device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays, pool_.hits, pool_.surfaces);
-        first_hit_.launch(device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
+        interact_.launch(
+            device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
+            pool_.hits, pool_.surfaces);
+        first_hit_.launch(
+            device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
         if (shade_miss_)
-            shade_miss_->launch(device_, slots, params_, slots, scene_.environment, pool_.rays, pool_.hits, pool_.throughputs, pool_.radiances);
+            shade_miss_->launch(
+                device_, slots, params_, slots, scene_.environment, pool_.rays, pool_.hits,
+                pool_.throughputs, pool_.radiances);
         if (shade_emission_)
-            shade_emission_->launch(device_, slots, params_, slots, scene_.materials, scene_.lights, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
+            shade_emission_->launch(
+                device_, slots, params_, slots, scene_.materials, scene_.lights, pool_.rays,
+                pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
         if (direct_light_) {
-            direct_light_->launch(device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights, scene_.environment, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs, pool_.ids, pool_.shadows);
-            occlusion_->launch(device_, (slots + features_.rays_per_item - 1) / features_.rays_per_item, params_, slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
+            direct_light_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
+                scene_.environment, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs,
+                pool_.ids, pool_.shadows);
+            occlusion_->launch(
+                device_, (slots + features_.rays_per_item - 1) / features_.rays_per_item, params_,
+                slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
         }
-        sample_indirect_.launch(device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays, pool_.hits, pool_.throughputs, pool_.ids, pool_.branches);
-        roulette_compact_.launch(device_, slots, params_, slots, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
+        sample_indirect_.launch(
+            device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays,
+            pool_.hits, pool_.throughputs, pool_.ids, pool_.branches);
+        roulette_compact_.launch(
+            device_, slots, params_, slots, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
         if (resume_branch_)
-            resume_branch_->launch(device_, slots, params_, slots, pool_.branches, pool_.hits, pool_.rays, pool_.throughputs, pool_.ids, pool_.fates);
-        accumulate_.launch(device_, slots, params_, slots, pool_.hits, pool_.radiances, pool_.ids, cells_, cell_flags_);
+            resume_branch_->launch(
+                device_, slots, params_, slots, pool_.branches, pool_.hits, pool_.rays,
+                pool_.throughputs, pool_.ids, pool_.fates);
+        accumulate_.launch(
+            device_, slots, params_, slots, pool_.hits, pool_.radiances, pool_.ids, cells_,
+            cell_flags_);
         closest_rays_ += work.active - work.resumed;
         work = count_work(slots, window);
         ++iterations_;
     }
-    fold_film_.launch(device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
+    fold_film_.launch(
+        device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
     device_.queue.finish();
     profile_.collect();
 }
@@ -103,14 +148,18 @@ void QueueManager::start(const Window& window, RenderParams params) {
     params.pixel_step = params.pool % window.pixels;
     params.pass_step = params.pool / window.pixels;
     device_.queue.enqueueWriteBuffer(params_.buffer(), CL_TRUE, 0, sizeof(params), &params);
-    device_.queue.enqueueWriteBuffer(plan_.buffer(), CL_TRUE, 0, window.rows.size() * sizeof(PlanRow), window.rows.data());
+    device_.queue.enqueueWriteBuffer(
+        plan_.buffer(), CL_TRUE, 0, window.rows.size() * sizeof(PlanRow), window.rows.data());
 }
 
 QueueManager::Work QueueManager::count_work(uint32_t slots, const Window& window) {
     chunk_states_.resize((slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK);
-    scan_queue_.launch(device_, chunk_states_.size(), params_, slots, pool_.fates, pool_.ids, pool_.chunk_states, pool_.statistics);
+    scan_queue_.launch(
+        device_, chunk_states_.size(), params_, slots, pool_.fates, pool_.ids, pool_.chunk_states,
+        pool_.statistics);
     device_.queue.enqueueReadBuffer(
-        pool_.chunk_states.buffer(), CL_TRUE, 0, chunk_states_.size() * sizeof(ChunkState), chunk_states_.data());
+        pool_.chunk_states.buffer(), CL_TRUE, 0, chunk_states_.size() * sizeof(ChunkState),
+        chunk_states_.data());
     profile_.collect();
     Work work;
     for (const ChunkState& chunk : chunk_states_) {
@@ -125,9 +174,14 @@ uint32_t QueueManager::compact(uint32_t slots, uint32_t active) {
     const uint32_t kept = (active + QUEUE_CHUNK - 1) / QUEUE_CHUNK * QUEUE_CHUNK;
     if (kept >= slots) return slots;
     uint32_t movers = 0;
-    for (std::size_t chunk = kept / QUEUE_CHUNK; chunk < chunk_states_.size(); ++chunk) movers += chunk_states_[chunk].active;
-    scatter_queue_.launch(device_, chunk_states_.size(), params_, slots, kept, pool_.hits, pool_.chunk_states, pool_.holes, pool_.movers);
-    move_paths_.launch(device_, movers, params_, movers, pool_.holes, pool_.movers, pool_.rays, pool_.hits, pool_.throughputs, pool_.radiances, pool_.ids, pool_.branches);
+    for (std::size_t chunk = kept / QUEUE_CHUNK; chunk < chunk_states_.size(); ++chunk)
+        movers += chunk_states_[chunk].active;
+    scatter_queue_.launch(
+        device_, chunk_states_.size(), params_, slots, kept, pool_.hits, pool_.chunk_states,
+        pool_.holes, pool_.movers);
+    move_paths_.launch(
+        device_, movers, params_, movers, pool_.holes, pool_.movers, pool_.rays, pool_.hits,
+        pool_.throughputs, pool_.radiances, pool_.ids, pool_.branches);
     return kept;
 }
 
@@ -136,7 +190,8 @@ void QueueManager::report_runaway(uint32_t slot, const Window& window) const {
     const auto id = [&](IdPlane plane) { return ids[std::size_t{plane} * pool_.stride + slot]; };
     const PlanRow& row = window.rows[id(ID_PASS)];
     throw Error(
-        "pixel {}, sample {}: the path is still alive after {} scatterings: nothing in the scene absorbs it; "
+        "pixel {}, sample {}: the path is still alive after {} scatterings: nothing in the scene "
+        "absorbs it; "
         "lower an albedo, or use --termination depth:D (biased)",
         id(ID_PIXEL), row.first_sample + id(ID_SAMPLE), MAX_SCATTERINGS);
 }

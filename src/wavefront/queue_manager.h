@@ -26,7 +26,8 @@ struct WorkGroups {
 };
 
 struct RayCounts {
-    std::vector<uint64_t> path_lengths;  // paths that ended after 1, 2, ... closest-hit rays; the last of DEPTH_BINS: and more
+    std::vector<uint64_t> path_lengths;  // paths that ended after 1, 2, ... closest-hit rays; the
+                                         // last of DEPTH_BINS: and more
     uint64_t closest = 0;                // rays traced by intersect
     uint64_t connections = 0;            // rays traced by occlusion
 };
@@ -35,12 +36,17 @@ class QueueManager {
   public:
     // `max_cells`: the most units of work of one window.
     QueueManager(
-        const Device& device, const cl::Program& program, const Features& features, const SceneBuffers& scene, uint32_t slots,
-        uint64_t max_cells, WorkGroups work_groups, Profile& profile);
+        const Device& device,
+        const cl::Program& program,
+        const Features& features,
+        const SceneBuffers& scene,
+        uint32_t slots,
+        uint64_t max_cells,
+        WorkGroups work_groups,
+        Profile& profile);
 
     // The kernel files of the chain that these features need.
     static std::vector<std::string> kernel_files(const Features& features);
-
 
     // Takes the window's samples and folds them into the film. `params` says all but the window.
     // Throws Error for a path of MAX_SCATTERINGS.
@@ -96,12 +102,28 @@ class QueueManager {
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
     Stage<Params, cl_uint, Floats, Floats, Uints, Floats> first_hit_;
     std::optional<Stage<Params, cl_uint, Map, Floats, Floats, Floats, Floats>> shade_miss_;
-    std::optional<Stage<Params, cl_uint, Materials, Lights, Floats, Floats, Floats, Floats, Floats>> shade_emission_;
-    std::optional<Stage<Params, cl_uint, Floats, Materials, Lights, Map, Floats, Floats, Floats, Floats, Uints, Floats>> direct_light_;
+    std::optional<Stage<Params, cl_uint, Materials, Lights, Floats, Floats, Floats, Floats, Floats>>
+        shade_emission_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Materials,
+        Lights,
+        Map,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Uints,
+        Floats>>
+        direct_light_;
     std::optional<Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Fates>> occlusion_;
-    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats> sample_indirect_;
+    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats>
+        sample_indirect_;
     Stage<Params, cl_uint, Uints, Floats, Floats, Fates> roulette_compact_;
-    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Fates>> resume_branch_;
+    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Fates>>
+        resume_branch_;
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
     Stage<Params, cl_uint, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats> move_paths_;

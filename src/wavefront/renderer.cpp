@@ -28,22 +28,41 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-void check_lights(const Scene& scene, const NormalisedScene& geometry, const LightTables& tables, const Method& method, RenderResult& result) {
-    const bool area = std::ranges::any_of(tables.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
+void check_lights(
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    const LightTables& tables,
+    const Method& method,
+    RenderResult& result) {
+    const bool area =
+        std::ranges::any_of(tables.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
     const bool punctual = !geometry.lights.empty();
     if (!area && !punctual && !scene.environment)
-        throw Error("{}: no light; add an emissive material, a KHR_lights_punctual light, --env or --env-radiance", scene.name);
+        throw Error(
+            "{}: no light; add an emissive material, a KHR_lights_punctual light, --env or "
+            "--env-radiance",
+            scene.name);
     if (method.sample_lights || !punctual) return;
     if (!area && !scene.environment)
-        throw Error("{}: --method {} cannot find punctual lights, and the scene has no other; use direct, direct-bsdf or mis", scene.name, method.name);
-    result.warnings.push_back(fmt::format("--method {} cannot find punctual lights: their light is missing", method.name));
+        throw Error(
+            "{}: --method {} cannot find punctual lights, and the scene has no other; use direct, "
+            "direct-bsdf or mis",
+            scene.name, method.name);
+    result.warnings.push_back(fmt::format(
+        "--method {} cannot find punctual lights: their light is missing", method.name));
 }
 
-RenderParams scene_params(const Scene& scene, const NormalisedScene& geometry, const LightTables& tables, const RenderSettings& settings) {
+RenderParams scene_params(
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    const LightTables& tables,
+    const RenderSettings& settings) {
     RenderParams params{};
     set_camera(params, settings.camera, geometry, settings.width, settings.height);
     params.seed = settings.seed;
-    params.max_scatterings = settings.termination.kind == TerminationKind::depth ? settings.termination.depth : MAX_SCATTERINGS;
+    params.max_scatterings = settings.termination.kind == TerminationKind::depth
+                                 ? settings.termination.depth
+                                 : MAX_SCATTERINGS;
     params.roulette = settings.termination.kind == TerminationKind::roulette            ? 1
                       : settings.termination.kind == TerminationKind::roulette_constant ? 2
                                                                                         : 0;
@@ -62,7 +81,8 @@ RenderParams scene_params(const Scene& scene, const NormalisedScene& geometry, c
     return params;
 }
 
-// Windows are cut to about a second, so that progress, Ctrl-C and limits are met in time; the picture does not depend on it.
+// Windows are cut to about a second, so that progress, Ctrl-C and limits are met in time; the
+// picture does not depend on it.
 class Schedule {
   public:
     Schedule(const RenderSettings& settings, uint32_t pool, uint64_t max_cells)
@@ -79,11 +99,14 @@ class Schedule {
         const double wanted = seconds_ > 0 ? std::clamp(seconds_ - elapsed, 0.0, 1.0) : 1.0;
         const double passes = rate_ > 0 ? wanted * rate_ : 1;
         const uint64_t fit = std::max<uint64_t>(1, max_cells_ / pixels_);
-        const std::vector<PlanRow> rows = plan_.take(std::min(fit, std::max(least_passes_, static_cast<uint64_t>(passes))));
+        const std::vector<PlanRow> rows =
+            plan_.take(std::min(fit, std::max(least_passes_, static_cast<uint64_t>(passes))));
         passes_ = rows.size();
         std::vector<Window> windows;
         for (uint64_t first = 0; first < pixels_ && !rows.empty(); first += max_cells_)
-            windows.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(std::min(pixels_ - first, max_cells_)), rows});
+            windows.push_back(
+                {static_cast<uint32_t>(first),
+                 static_cast<uint32_t>(std::min(pixels_ - first, max_cells_)), rows});
         return windows;
     }
 
@@ -107,45 +130,60 @@ class Schedule {
 }  // namespace
 
 RenderResult render(
-    const Device& device, const Scene& scene, const RenderSettings& settings, const std::function<bool(const RenderProgress&)>& progress) {
+    const Device& device,
+    const Scene& scene,
+    const RenderSettings& settings,
+    const std::function<bool(const RenderProgress&)>& progress) {
     RenderResult result;
     Stopwatch watch;
     const NormalisedScene geometry = normalise(scene);
-    const LightTables tables = build_light_tables(scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
+    const LightTables tables = build_light_tables(
+        scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
     check_lights(scene, geometry, tables, settings.method, result);
-    Features features = features_of(scene, geometry, tables, settings.method, settings.splits > 1 ? settings.split_depth : 0, settings.sobol);
+    Features features = features_of(
+        scene, geometry, tables, settings.method, settings.splits > 1 ? settings.split_depth : 0,
+        settings.sobol);
     result.times.normalise = watch.lap();
     const Bvh bvh = build_bvh(geometry.positions);
     result.times.bvh_build = watch.lap();
-    // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait for memory together.
-    if (device.info.is_cpu && bvh.nodes.size() >= stream_nodes) features.rays_per_item = stream_rays;
+    // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
+    // for memory together.
+    if (device.info.is_cpu && bvh.nodes.size() >= stream_nodes)
+        features.rays_per_item = stream_rays;
     const SceneBuffers buffers(device, scene, geometry, bvh, tables);
     result.times.upload = watch.lap();
 
-    const cl::Program program = build_program(device, assemble_source(features.defines(), QueueManager::kernel_files(features)));
+    const cl::Program program = build_program(
+        device, assemble_source(features.defines(), QueueManager::kernel_files(features)));
     Profile profile;
     const uint32_t pool = settings.pool > 0 ? settings.pool : device.info.default_pool;
     const uint64_t max_cells = std::max<uint64_t>(uint64_t{1} << 20U, uint64_t{4} * pool);
-    QueueManager queues(device, program, features, buffers, pool, max_cells, settings.work_groups, profile);
+    QueueManager queues(
+        device, program, features, buffers, pool, max_cells, settings.work_groups, profile);
     Film film(device, settings.width, settings.height);
     result.times.program_build = watch.lap();
 
     const RenderParams params = scene_params(scene, geometry, tables, settings);
     Schedule schedule(settings, pool, max_cells);
     const SamplePlan& plan = schedule.plan();
-    const auto relative_error = [&] { return develop(device, film, plan.samples_taken(), plan.batches_closed()).relative_error; };
+    const auto relative_error = [&] {
+        return develop(device, film, plan.samples_taken(), plan.batches_closed()).relative_error;
+    };
     while (!plan.done()) {
-        for (const Window& window : schedule.next(result.times.render)) queues.render(window, params, film);
+        for (const Window& window : schedule.next(result.times.render))
+            queues.render(window, params, film);
         const double seconds = watch.lap();
         schedule.took(seconds);
         result.times.render += seconds;
         if (progress) {
             const RayCounts rays = queues.ray_counts();
             result.interrupted = !progress(
-                {plan.samples_taken(), settings.samples, result.times.render, rays.closest + rays.connections, relative_error});
+                {plan.samples_taken(), settings.samples, result.times.render,
+                 rays.closest + rays.connections, relative_error});
         }
         const bool timed_out = settings.seconds > 0 && result.times.render >= settings.seconds;
-        const bool on_target = settings.target_error > 0 && relative_error() < settings.target_error;
+        const bool on_target =
+            settings.target_error > 0 && relative_error() < settings.target_error;
         if (result.interrupted || timed_out || on_target) break;
     }
 

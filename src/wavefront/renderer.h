@@ -16,16 +16,16 @@ namespace wavepath {
 struct RenderSettings {
     uint32_t width = 512, height = 512;
     Camera camera;
-    uint64_t samples = 64;     // a pixel; 0: open-ended, until `seconds` or `target_error`
-    double seconds = 0;        // stop after the pass that passes it; 0: no limit
-    double target_error = 0;   // stop when DevelopedFilm::relative_error falls below; 0: no target
+    uint64_t samples = 64;    // a pixel; 0: open-ended, until `seconds` or `target_error`
+    double seconds = 0;       // stop after the pass that passes it; 0: no limit
+    double target_error = 0;  // stop when DevelopedFilm::relative_error falls below; 0: no target
     uint32_t seed = 1;
     Method method = method_named("mis");
     Termination termination;
     uint32_t splits = 1;
     uint32_t split_depth = 1;
     bool sobol = true;
-    uint32_t pool = 0;         // path slots; 0: the device's default
+    uint32_t pool = 0;  // path slots; 0: the device's default
     WorkGroups work_groups;
 };
 
@@ -34,17 +34,17 @@ struct RenderTimes {
 };
 
 struct RenderProgress {
-    uint64_t samples = 0;      // a pixel, so far
+    uint64_t samples = 0;         // a pixel, so far
     uint64_t samples_wanted = 0;  // 0: open-ended
-    double seconds = 0;        // of rendering
+    double seconds = 0;           // of rendering
     uint64_t rays = 0;
     std::function<double()> relative_error;  // reads the film back
 };
 
 struct RenderResult {
     DevelopedFilm film;
-    uint64_t samples = 0;      // a pixel
-    uint32_t batches = 0;      // that the variance rests on
+    uint64_t samples = 0;  // a pixel
+    uint32_t batches = 0;  // that the variance rests on
     RenderTimes times;
     std::vector<ProfileRow> profile;
     bool device_clock = true;
@@ -57,10 +57,12 @@ struct RenderResult {
 };
 
 // `progress` is called after every window; it returns false to stop there.
-// Throws Error where the scene has no light, or none that the method can find; where the device lacks memory, before
-// rendering; for a path that never ends.
+// Throws Error where the scene has no light, or none that the method can find; where the device
+// lacks memory, before rendering; for a path that never ends.
 RenderResult render(
-    const Device& device, const Scene& scene, const RenderSettings& settings,
+    const Device& device,
+    const Scene& scene,
+    const RenderSettings& settings,
     const std::function<bool(const RenderProgress&)>& progress = {});
 
 }  // namespace wavepath

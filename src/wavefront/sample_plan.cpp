@@ -6,12 +6,13 @@ namespace wavepath {
 
 SamplePlan::SamplePlan(uint64_t samples)
     : samples_(samples),
-      batch_count_(static_cast<uint32_t>(
-          std::min(samples, std::clamp<uint64_t>(samples / least_batch, least_batches, most_batches)))) {}
+      batch_count_(static_cast<uint32_t>(std::min(
+          samples, std::clamp<uint64_t>(samples / least_batch, least_batches, most_batches)))) {}
 
 uint32_t SamplePlan::batch_size() const {
     if (samples_ == 0) return least_batch;
-    return static_cast<uint32_t>(samples_ / batch_count_ + (batch_ < samples_ % batch_count_ ? 1 : 0));
+    return static_cast<uint32_t>(
+        samples_ / batch_count_ + (batch_ < samples_ % batch_count_ ? 1 : 0));
 }
 
 std::vector<PlanRow> SamplePlan::take(uint64_t count) {

@@ -16,7 +16,7 @@ namespace wavepath {
 namespace {
 
 const Probe& probe() {
-    static const Probe instance({"geometry/bvh.cl"}, R"(
+    static const Probe& instance = *new Probe({"geometry/bvh.cl"}, R"(
 kernel void closest(
     const uint count, global Hit* out, global const float* rays, global const BvhNode* nodes,
     global const TriangleBlock* blocks) {

@@ -16,7 +16,7 @@ constexpr std::size_t rays_per_item = 50;  // more than a stream holds, and no m
 // Each kernel lets rays enter only if they have a t_max of at least 0, as a stage skips an idle
 // slot.
 const Probe& probe() {
-    static const Probe instance(
+    static const Probe& instance = *new Probe(
         {"geometry/ray_stream.cl"},
         R"(
 void trace(

@@ -15,10 +15,11 @@ constexpr std::size_t work_group = 64;  // every device allows it
 }  // namespace
 
 const Device& test_device() {
-    static const Device device = [] {
+    // Never released: a driver may be gone by the time static objects are (oclgrind's is).
+    static const Device& device = *new Device([] {
         const char* selector = std::getenv("WAVEPATH_TEST_DEVICE");
         return open_device(selector != nullptr ? selector : "");
-    }();
+    }());
     return device;
 }
 

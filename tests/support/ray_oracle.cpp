@@ -123,14 +123,32 @@ double RayOracle::edge_distance(const TestRay& ray, int primitive) const {
     return least;
 }
 
+bool RayOracle::passes_through(const TestRay& ray, int primitive) const {
+    std::array<Point, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k)
+        corners[k] =
+            minus(corner(mesh_, static_cast<std::size_t>(primitive), k), widened(ray.origin));
+    const Point d = widened(ray.direction);
+    std::array<double, 3> side{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Point& a = corners[k];
+        const Point& b = corners[(k + 1) % 3];
+        side[k] = d[0] * (a[1] * b[2] - a[2] * b[1]) + d[1] * (a[2] * b[0] - a[0] * b[2]) +
+                  d[2] * (a[0] * b[1] - a[1] * b[0]);
+    }
+    const auto [least, most] = std::minmax_element(side.begin(), side.end());
+    return *least >= 0 || *most <= 0;
+}
+
 bool RayOracle::agree(const TestRay& ray, const TestHit& ours, const TestHit& theirs) const {
     if (ours.primitive == theirs.primitive) return true;
     if (ours.primitive >= 0 && theirs.primitive >= 0) {
         const Point apart = minus(point_of(ours), point_of(theirs));
         if (std::sqrt(dot(apart, apart)) <= 1e-5) return true;
     }
-    const bool stops_first = theirs.primitive < 0 || (ours.primitive >= 0 && ours.t < theirs.t);
-    return edge_distance(ray, stops_first ? ours.primitive : theirs.primitive) <= 1e-6;
+    const bool ours_first = theirs.primitive < 0 || (ours.primitive >= 0 && ours.t < theirs.t);
+    const int stopped_at = ours_first ? ours.primitive : theirs.primitive;
+    return edge_distance(ray, stopped_at) <= 1e-6 || passes_through(ray, stopped_at) == ours_first;
 }
 
 std::vector<TestRay> make_rays(

@@ -34,12 +34,14 @@ class RayOracle {
 
     // Two answers to one ray: alike, or different where float cannot decide, judged in double.
     //  - the same triangle, or hit points within 1e-5 of each other (adjacent or coincident), or
-    //  - one of them stops at a triangle that has an edge within 1e-6 of the ray (a silhouette).
+    //  - one of them stops at a triangle that has an edge within 1e-6 of the ray (a silhouette), or
+    //  - ours is right: Embree meets slivers seen edge-on far from where the ray passes them.
     bool agree(const TestRay& ray, const TestHit& ours, const TestHit& theirs) const;
 
   private:
     std::array<double, 3> point_of(const TestHit& hit) const;
     double edge_distance(const TestRay& ray, int primitive) const;
+    bool passes_through(const TestRay& ray, int primitive) const;
 
     const TestMesh& mesh_;
     std::shared_ptr<RTCSceneTy> scene_;

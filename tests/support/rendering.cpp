@@ -10,7 +10,8 @@ namespace {
 
 constexpr double power_z = 2.3263;  // of probability .99
 
-// Of the sums of single-precision products along a path, relative. The paths of these tests are short.
+// Of the sums of single-precision products along a path, relative. The paths of these tests are
+// short.
 constexpr double rounding = 3e-6;
 
 double critical_t(double degrees, const Strictness& s) {
@@ -18,18 +19,25 @@ double critical_t(double degrees, const Strictness& s) {
 }
 
 testing::AssertionResult judge(
-    const Estimate& difference, double scale, double critical, const Strictness& s, const std::string& what) {
+    const Estimate& difference,
+    double scale,
+    double critical,
+    const Strictness& s,
+    const std::string& what) {
     const double chance = critical * difference.error;
     if (!(std::abs(difference.mean) <= chance + (rounding + s.truth_error) * std::abs(scale)))
-        return testing::AssertionFailure() << what << ": off by " << difference.mean << " = "
-                                           << 100 * difference.mean / scale << " %, "
-                                           << difference.mean / difference.error << " standard errors; critical " << critical;
+        return testing::AssertionFailure()
+               << what << ": off by " << difference.mean << " = " << 100 * difference.mean / scale
+               << " %, " << difference.mean / difference.error << " standard errors; critical "
+               << critical;
     if (!((critical + power_z) * difference.error <= s.bias * std::abs(scale)))
-        return testing::AssertionFailure() << what << ": too few samples to catch a bias of " << 100 * s.bias
-                                           << " %: relative standard error " << difference.error / scale << ", needed "
-                                           << s.bias / (critical + power_z);
-    return testing::AssertionSuccess() << what << ": " << difference.mean / difference.error << " standard errors of "
-                                       << difference.error / scale << " relative";
+        return testing::AssertionFailure()
+               << what << ": too few samples to catch a bias of " << 100 * s.bias
+               << " %: relative standard error " << difference.error / scale << ", needed "
+               << s.bias / (critical + power_z);
+    return testing::AssertionSuccess()
+           << what << ": " << difference.mean / difference.error << " standard errors of "
+           << difference.error / scale << " relative";
 }
 
 }  // namespace
@@ -57,7 +65,10 @@ RenderResult render_scene(const Scene& scene, const RenderSettings& settings) {
 }
 
 RenderResult render_for(
-    const Strictness& strictness, const Scene& scene, RenderSettings settings, const std::string& channel) {
+    const Strictness& strictness,
+    const Scene& scene,
+    RenderSettings settings,
+    const std::string& channel) {
     RenderResult pilot = render_scene(scene, settings);
     const Estimate e = image_mean(pilot, channel);
     // a tenth more, for what the pilot does not know of its own error
@@ -65,7 +76,8 @@ RenderResult render_for(
     if (found <= strictness.bias) return pilot;
     const double factor = std::pow(found / strictness.bias, 2);
     const auto samples = static_cast<double>(settings.samples) * factor;
-    EXPECT_LT(samples * settings.width * settings.height, 2e7) << scene.name << ": too noisy for a test";
+    EXPECT_LT(samples * settings.width * settings.height, 2e7)
+        << scene.name << ": too noisy for a test";
     settings.samples = static_cast<uint64_t>(std::ceil(samples / 16)) * 16;  // whole batches
     settings.seed += 1000;
     return render_scene(scene, settings);
@@ -109,7 +121,8 @@ std::vector<Estimate> block_means(const RenderResult& result, const std::string&
         std::vector<double> values;
         for (uint32_t y = 0; y < block_height; ++y)
             for (uint32_t x = 0; x < block_width; ++x)
-                values.push_back(pixels[(block / 8 * block_height + y) * width + block % 8 * block_width + x]);
+                values.push_back(
+                    pixels[(block / 8 * block_height + y) * width + block % 8 * block_width + x]);
         blocks.push_back(estimate_of(values));
     }
     return blocks;
@@ -139,8 +152,8 @@ testing::AssertionResult has_mean(const Estimate& e, double truth, const Strictn
 testing::AssertionResult agree(const Estimate& a, const Estimate& b, const Strictness& s) {
     const double degrees = std::min(a.degrees, b.degrees);
     return judge(
-        {a.mean - b.mean, std::hypot(a.error, b.error), degrees}, 0.5 * (a.mean + b.mean), critical_t(degrees, s), s,
-        fmt::format("{:.8g} against {:.8g}", a.mean, b.mean));
+        {a.mean - b.mean, std::hypot(a.error, b.error), degrees}, 0.5 * (a.mean + b.mean),
+        critical_t(degrees, s), s, fmt::format("{:.8g} against {:.8g}", a.mean, b.mean));
 }
 
 }  // namespace wavepath

@@ -1,5 +1,5 @@
-// Renders for the statistical tests, and how their pictures are judged: z-tests which a bias of 0.5 % fails with
-// probability .99 and a right renderer with probability 1e-6 (support/statistics.h).
+// Renders for the statistical tests, and how their pictures are judged: z-tests which a bias of 0.5
+// % fails with probability .99 and a right renderer with probability 1e-6 (support/statistics.h).
 #pragma once
 
 #include "support/probe.h"
@@ -31,9 +31,13 @@ struct Strictness {
     double truth_error = 0;  // relative error of the truth itself: tessellation, table digits
 };
 
-// A pilot of settings.samples says how many samples the test needs; a second render, with another seed, takes them.
+// A pilot of settings.samples says how many samples the test needs; a second render, with another
+// seed, takes them.
 RenderResult render_for(
-    const Strictness& strictness, const Scene& scene, RenderSettings settings, const std::string& channel = "R");
+    const Strictness& strictness,
+    const Scene& scene,
+    RenderSettings settings,
+    const std::string& channel = "R");
 
 // A mean with its standard error, and the degrees of freedom the error rests on.
 struct Estimate {
@@ -52,12 +56,15 @@ Estimate image_mean(const RenderResult& result, const std::string& channel = "R"
 // Of the 8 x 8 blocks of an image whose pixels all have the same expected value.
 std::vector<Estimate> block_means(const RenderResult& result, const std::string& channel = "R");
 
-// Variance of one sample, from an image of one independent sample a pixel, and the variance's standard error.
+// Variance of one sample, from an image of one independent sample a pixel, and the variance's
+// standard error.
 Estimate sample_variance(const RenderResult& result, const std::string& channel = "R");
 
 // |mean - truth| within chance, and few enough samples not to be the reason.
-testing::AssertionResult has_mean(const Estimate& e, double truth, const Strictness& strictness = {});
+testing::AssertionResult has_mean(
+    const Estimate& e, double truth, const Strictness& strictness = {});
 // Two independent estimates of one mean.
-testing::AssertionResult agree(const Estimate& a, const Estimate& b, const Strictness& strictness = {});
+testing::AssertionResult agree(
+    const Estimate& a, const Estimate& b, const Strictness& strictness = {});
 
 }  // namespace wavepath

@@ -35,18 +35,20 @@ struct UnitIcosphere {
 
     explicit UnitIcosphere(int subdivisions) {
         const double t = std::numbers::phi;
-        corners = {{-1, t, 0}, {1, t, 0}, {-1, -t, 0}, {1, -t, 0}, {0, -1, t}, {0, 1, t},
-                   {0, -1, -t}, {0, 1, -t}, {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}};
+        corners = {{-1, t, 0},  {1, t, 0},  {-1, -t, 0}, {1, -t, 0}, {0, -1, t},  {0, 1, t},
+                   {0, -1, -t}, {0, 1, -t}, {t, 0, -1},  {t, 0, 1},  {-t, 0, -1}, {-t, 0, 1}};
         for (Vec3d& c : corners) c = normalized(c);
-        faces = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                 {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                 {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+        faces = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                 {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                 {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                 {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
         for (int level = 0; level < subdivisions; ++level) subdivide();
     }
 
     double volume() const {
         double sum = 0;
-        for (const auto& f : faces) sum += dot(corners[f[0]], cross(corners[f[1]], corners[f[2]])) / 6;
+        for (const auto& f : faces)
+            sum += dot(corners[f[0]], cross(corners[f[1]], corners[f[2]])) / 6;
         return sum;
     }
 
@@ -116,7 +118,10 @@ Environment constant_environment(float radiance) {
 }
 
 Primitive& add_triangles(
-    Scene& scene, const Material& material, std::vector<float> positions, std::vector<uint32_t> indices) {
+    Scene& scene,
+    const Material& material,
+    std::vector<float> positions,
+    std::vector<uint32_t> indices) {
     Primitive primitive;
     primitive.name = "mesh " + std::to_string(scene.primitives.size());
     primitive.positions = std::move(positions);
@@ -149,11 +154,14 @@ Primitive& add_box(
     Scene& scene, const Material& material, const Vec3d& low, const Vec3d& high, Facing facing) {
     std::vector<float> positions;
     for (uint32_t i = 0; i < 8; ++i)
-        append(positions, {i & 1U ? high[0] : low[0], i & 2U ? high[1] : low[1], i & 4U ? high[2] : low[2]});
+        append(
+            positions,
+            {i & 1U ? high[0] : low[0], i & 2U ? high[1] : low[1], i & 4U ? high[2] : low[2]});
     std::vector<uint32_t> indices{0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                                   2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
     if (facing == Facing::inward)
-        for (std::size_t i = 0; i < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
+        for (std::size_t i = 0; i < indices.size(); i += 3)
+            std::swap(indices[i + 1], indices[i + 2]);
     return add_triangles(scene, material, std::move(positions), std::move(indices));
 }
 
@@ -170,12 +178,15 @@ Primitive& add_icosphere(
     for (const Vec3d& c : sphere.corners) append(positions, plus(centre, times(c, scale)));
     std::vector<uint32_t> indices;
     for (const auto& [a, b, c] : sphere.faces)
-        indices.insert(indices.end(), {a, facing == Facing::outward ? b : c, facing == Facing::outward ? c : b});
+        indices.insert(
+            indices.end(),
+            {a, facing == Facing::outward ? b : c, facing == Facing::outward ? c : b});
     return add_triangles(scene, material, std::move(positions), std::move(indices));
 }
 
 double icosphere_sagitta(int subdivisions) {
-    // the largest faces of an icosahedron's subdivision have a circumradius of 0.65 / 2^subdivisions
+    // the largest faces of an icosahedron's subdivision have a circumradius of 0.65 /
+    // 2^subdivisions
     const double circumradius = 0.65 / std::exp2(subdivisions);
     return 1 - std::sqrt(1 - circumradius * circumradius);
 }
@@ -197,12 +208,14 @@ Camera close_up(const Vec3d& p, const Vec3d& normal, double height, double footp
 }
 
 void transform(Scene& scene, Camera& camera, double scale, const Vec3d& shift) {
-    for (Instance& instance : scene.instances) instance.to_world = moved(instance.to_world, scale, shift);
+    for (Instance& instance : scene.instances)
+        instance.to_world = moved(instance.to_world, scale, shift);
     for (PunctualLight& light : scene.lights) {
         light.position = plus(times(light.position, scale), shift);
         light.range *= scale;
         if (light.kind != LightKind::directional)
-            for (float& channel : light.intensity) channel = static_cast<float>(channel * scale * scale);
+            for (float& channel : light.intensity)
+                channel = static_cast<float>(channel * scale * scale);
     }
     camera.to_world = moved(camera.to_world, scale, shift);
     camera.x_mag *= scale;

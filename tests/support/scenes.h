@@ -23,8 +23,12 @@ Environment constant_environment(float radiance);
 
 // Each adds one primitive with a material of its own and an instance of it; returns the primitive.
 Primitive& add_triangles(
-    Scene& scene, const Material& material, std::vector<float> positions, std::vector<uint32_t> indices);
-// The parallelogram corner, corner + u, corner + u + v, corner + v; its front is where u x v points.
+    Scene& scene,
+    const Material& material,
+    std::vector<float> positions,
+    std::vector<uint32_t> indices);
+// The parallelogram corner, corner + u, corner + u + v, corner + v; its front is where u x v
+// points.
 Primitive& add_quad(
     Scene& scene, const Material& material, const Vec3d& corner, const Vec3d& u, const Vec3d& v);
 // A square of this side around `centre`, its front towards `normal` (any length).
@@ -50,7 +54,8 @@ Camera orthographic(const Vec3d& eye, const Vec3d& target, double side);
 // Looks straight down at the point `p` of a surface of this normal, from `height` above it.
 Camera close_up(const Vec3d& p, const Vec3d& normal, double height, double footprint);
 
-// Moves everything by world' = scale * world + shift: nodes, lights (intensity by scale^2), and `camera`.
+// Moves everything by world' = scale * world + shift: nodes, lights (intensity by scale^2), and
+// `camera`.
 void transform(Scene& scene, Camera& camera, double scale, const Vec3d& shift);
 
 }  // namespace wavepath
