@@ -86,9 +86,8 @@ INLINE void stream_add(
     ray->item = item;
     ray->current = 0;
     ray->top = 8;
-    vstore8(
-        (float8)(-1.0f), 0, ray->waiting_t);  // the end mark counts as near enough for any hit.t
-    ray->waiting[7] = BVH_EMPTY;
+    vstore8((float8)(-1.0f), 0, ray->waiting_t);
+    ray->waiting[7] = BVH_EMPTY;  // the end mark, no farther than any hit
     stream->at_node[stream->nodes] = i;
     ++stream->nodes;
 }
@@ -126,10 +125,7 @@ INLINE void step_node(StreamRay* ray, global const BvhNode* node, const int any)
         // Distances are not negative, so their bits compare like integers; the lane takes the
         // low 3.
         const int8 keys = (as_int8(t_near) & ~7) | (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-        const int8 valid = select((int8)(0x7FFFFFFF), keys, crossed);
-        const int4 quarter = min(valid.lo, valid.hi);
-        const int2 pair = min(quarter.lo, quarter.hi);
-        lane = (uint)min(pair.x, pair.y) & 7u;
+        lane = (uint)least_lane(select((int8)(0x7FFFFFFF), keys, crossed)) & 7u;
     }
     const uint others = lanes & ~(1u << lane);
     const int top = ray->top;

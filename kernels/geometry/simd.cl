@@ -1,6 +1,6 @@
-// The three things that OpenCL C 1.2 cannot say and that decide the speed of a traversal on a CPU:
-// which lanes of a comparison hold, the lanes of a set packed together, and fetching ahead. The
-// portable text comes last; what the compiler of the moment knows better stands before it.
+// What OpenCL C 1.2 has no words for and what decides the speed of a traversal on a CPU: which
+// lanes of a comparison hold, the lanes of a set packed together, fetching ahead. Where a compiler
+// has the one instruction for it, that stands before the portable text.
 #pragma once
 
 #include "shared/inline.h"
@@ -16,9 +16,18 @@ INLINE uint lane_mask(const int8 lanes) {
 #else
     const int8 bits = lanes & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
     const int4 quarter = bits.lo | bits.hi;
-    const int2 pair = quarter.lo | quarter.hi;
-    return (uint)(pair.x | pair.y);
+    int pair[2];  // not .x and .y: oclgrind --uninitialized crashes where one lane is read
+    vstore2(quarter.lo | quarter.hi, 0, pair);
+    return (uint)(pair[0] | pair[1]);
 #endif
+}
+
+// The least of eight.
+INLINE int least_lane(const int8 x) {
+    const int4 quarter = min(x.lo, x.hi);
+    int pair[2];
+    vstore2(min(quarter.lo, quarter.hi), 0, pair);
+    return min(pair[0], pair[1]);
 }
 
 // The lanes whose bits are set, in order, from lane 0 on; what the others hold is undefined.

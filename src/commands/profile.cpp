@@ -72,10 +72,12 @@ void run(const RenderOptions& options, const std::filesystem::path& json) {
     print_kernels(result);
     print_rays(result);
     fmt::print(
-        "\n{:.2f} Msamples/s; load {:.0f} ms, BVH {:.0f} ms, upload {:.0f} ms, program {:.0f} ms, "
-        "render {:.0f} ms\n",
+        "\n{:.2f} Msamples/s; load {:.0f} ms, BVH {:.0f} ms, upload {:.0f} ms, program {:.0f} ms "
+        "({}), render {:.0f} ms\n",
         1e-6 * samples / result.times.render, 1e3 * job.load_seconds, 1e3 * result.times.bvh_build,
-        1e3 * result.times.upload, 1e3 * result.times.program_build, 1e3 * result.times.render);
+        1e3 * result.times.upload, 1e3 * result.times.program_build,
+        result.program.from_cache ? "from our cache" : "built, or from the driver's cache",
+        1e3 * result.times.render);
     fmt::print(
         "device memory: scene {:.1f} MiB ({:.0f} bytes a triangle), pool {:.1f} MiB, film {:.1f} "
         "MiB\n",

@@ -97,6 +97,8 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
           {"upload", result.times.upload},
           {"program_build", result.times.program_build},
           {"render", result.times.render}}},
+        {"program",
+         {{"build_s", result.program.seconds}, {"from_own_cache", result.program.from_cache}}},
         {"samples_per_pixel", result.samples},
         {"samples_per_s", number(samples / result.times.render)},
         {"batches", result.batches},

@@ -152,6 +152,16 @@ void QueueManager::start(const Window& window, RenderParams params) {
         plan_.buffer(), CL_TRUE, 0, window.rows.size() * sizeof(PlanRow), window.rows.data());
 }
 
+void QueueManager::load_compaction() {
+    const cl_uint none = 0;
+    scatter_queue_.launch(
+        device_, 1, params_, none, none, pool_.hits, pool_.chunk_states, pool_.holes, pool_.movers);
+    move_paths_.launch(
+        device_, 1, params_, none, pool_.holes, pool_.movers, pool_.rays, pool_.hits,
+        pool_.throughputs, pool_.radiances, pool_.ids, pool_.branches);
+    device_.queue.finish();
+}
+
 QueueManager::Work QueueManager::count_work(uint32_t slots, const Window& window) {
     chunk_states_.resize((slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK);
     scan_queue_.launch(

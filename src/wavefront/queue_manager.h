@@ -52,6 +52,9 @@ class QueueManager {
     // Throws Error for a path of MAX_SCATTERINGS.
     void render(const Window& window, RenderParams params, Film& film);
 
+    // Loads the kernels of the compaction, which a short render does not reach.
+    void load_compaction();
+
     RayCounts ray_counts() const;
     uint64_t iterations() const { return iterations_; }
     std::size_t bytes() const;

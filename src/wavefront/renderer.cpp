@@ -81,6 +81,27 @@ RenderParams scene_params(
     return params;
 }
 
+// PoCL compiles a kernel at its first launch: one short path through the whole chain, into a film
+// of its own, before the clock starts.
+void warm_up(
+    const Device& device,
+    const cl::Program& program,
+    const Features& features,
+    const SceneBuffers& buffers,
+    const RenderSettings& settings,
+    RenderParams params) {
+    params.width = 1;
+    params.height = 1;
+    params.max_scatterings = 1;
+    Profile profile;
+    QueueManager queues(
+        device, program, features, buffers, QUEUE_CHUNK, 1, settings.work_groups, profile);
+    Film film(device, 1, 1);
+    const Window window{0, 1, {PlanRow{0, 1, 0, 1}}};
+    queues.render(window, params, film);
+    queues.load_compaction();
+}
+
 // Windows are cut to about a second, so that progress, Ctrl-C and limits are met in time; the
 // picture does not depend on it.
 class Schedule {
@@ -153,8 +174,11 @@ RenderResult render(
     const SceneBuffers buffers(device, scene, geometry, bvh, tables);
     result.times.upload = watch.lap();
 
+    const RenderParams params = scene_params(scene, geometry, tables, settings);
     const cl::Program program = build_program(
-        device, assemble_source(features.defines(), QueueManager::kernel_files(features)));
+        device, assemble_source(features.defines(), QueueManager::kernel_files(features)),
+        &result.program);
+    warm_up(device, program, features, buffers, settings, params);
     Profile profile;
     const uint32_t pool = settings.pool > 0 ? settings.pool : device.info.default_pool;
     const uint64_t max_cells = std::max<uint64_t>(uint64_t{1} << 20U, uint64_t{4} * pool);
@@ -163,7 +187,6 @@ RenderResult render(
     Film film(device, settings.width, settings.height);
     result.times.program_build = watch.lap();
 
-    const RenderParams params = scene_params(scene, geometry, tables, settings);
     Schedule schedule(settings, pool, max_cells);
     const SamplePlan& plan = schedule.plan();
     const auto relative_error = [&] {

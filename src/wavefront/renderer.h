@@ -1,6 +1,7 @@
 // From a scene and settings to a finished picture.
 #pragma once
 
+#include "device/program.h"
 #include "film/film.h"
 #include "measure/profile.h"
 #include "scene/scene.h"
@@ -46,6 +47,7 @@ struct RenderResult {
     uint64_t samples = 0;  // a pixel
     uint32_t batches = 0;  // that the variance rests on
     RenderTimes times;
+    BuildReport program;
     std::vector<ProfileRow> profile;
     bool device_clock = true;
     RayCounts rays;

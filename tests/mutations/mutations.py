@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 
+LONGEST_RUN = 600  # [s]
 KERNELS = pathlib.Path(__file__).resolve().parents[2] / "kernels"
 
 # name, file, text, its replacement, tests that must notice
@@ -83,9 +84,12 @@ def mutate(folder, file, text, replacement):
 
 def tests_pass(program, tests, kernels):
     environment = dict(os.environ, WAVEPATH_KERNELS=str(kernels))
-    run = subprocess.run(
-        [program, f"--gtest_filter={tests}", "--gtest_brief=1"], env=environment, capture_output=True, text=True)
-    if "0 tests" in run.stdout.splitlines()[-1] or "[  PASSED  ] 0 tests" in run.stdout:
+    command = [program, f"--gtest_filter={tests}", "--gtest_brief=1"]
+    try:
+        run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=LONGEST_RUN)
+    except subprocess.TimeoutExpired:
+        return False  # it would not end: noticed
+    if run.returncode == 0 and "[  PASSED  ] 0 tests" in run.stdout:
         sys.exit(f"{tests}: no such test")
     return run.returncode == 0
 

@@ -1,0 +1,130 @@
+// The program as a user meets it: exit codes, one line for what is wrong, nothing half-written.
+#include "film/exr_writer.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace wavepath {
+namespace {
+
+const std::string cornell_box = WAVEPATH_SOURCE_DIR "/scenes/cornell_box/scene.gltf";
+
+struct Outcome {
+    int exit_code;
+    std::string words;  // what it printed, both streams
+};
+
+class RenderCommand : public testing::Test {
+  protected:
+    Outcome run(const std::string& arguments) const {
+        const std::string log = path("log");
+        const int status =
+            std::system(("{ " WAVEPATH_BINARY " " + arguments + "; } > " + log + " 2>&1").c_str());
+        std::ifstream file(log);
+        return {WEXITSTATUS(status), std::string(std::istreambuf_iterator<char>(file), {})};
+    }
+
+    std::string path(const std::string& name) const { return (folder.path() / name).string(); }
+
+    // It fails with one line that holds `words`, and leaves no picture.
+    void expect_refused(const std::string& arguments, const std::string& words) const {
+        SCOPED_TRACE(arguments);
+        const std::string picture = path("refused.exr");
+        const Outcome outcome = run("render " + arguments + " -o " + picture);
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_NE(outcome.words.find(words), std::string::npos) << outcome.words;
+        EXPECT_EQ(std::ranges::count(outcome.words, '\n'), 1) << outcome.words;
+        EXPECT_FALSE(std::filesystem::exists(picture));
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(RenderCommand, WritesPicturesAndAReport) {
+    const Outcome outcome =
+        run("render " + cornell_box + " --size 16x8 --spp 8 --seed 3 -o " + path("a.exr") + " " +
+            path("a.png") + " --json " + path("a.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.words;
+    const Image image = read_exr(path("a.exr"));
+    EXPECT_EQ(image.width, 16U);
+    EXPECT_EQ(image.height, 8U);
+    EXPECT_EQ(image.channels.size(), 13U);
+    EXPECT_EQ(image.metadata.at("wavepath.samples"), "8");
+    EXPECT_EQ(image.metadata.at("wavepath.bias"), "none");
+    EXPECT_TRUE(std::filesystem::exists(path("a.png")));
+    std::ifstream file(path("a.json"));
+    const auto report = nlohmann::json::parse(file);
+    EXPECT_EQ(report["schema"], 1);
+    EXPECT_EQ(report["settings"]["seed"], 3);
+    EXPECT_EQ(report["nonfinite_samples"], 0);
+    uint64_t paths = 0;
+    for (const auto& n : report["path_lengths"]) paths += n.get<uint64_t>();
+    EXPECT_EQ(paths, 16U * 8U * 8U);
+}
+
+TEST_F(RenderCommand, NamesTheBiasOfADepthCut) {
+    run("render " + cornell_box + " --size 4x4 --spp 1 --termination depth:2 -o " + path("d.exr"));
+    EXPECT_NE(read_exr(path("d.exr")).metadata.at("wavepath.bias").find("2"), std::string::npos);
+}
+
+TEST_F(RenderCommand, RefusesWithOneLine) {
+    expect_refused(path("nothing.gltf"), "nothing.gltf");
+    expect_refused(cornell_box + " --size 0x8", "--size 0x8");
+    expect_refused(cornell_box + " --size 8", "--size 8");
+    expect_refused(cornell_box + " --spp 0", "--spp 0");
+    expect_refused(cornell_box + " --spp 4 --time 1", "give one of them");
+    expect_refused(cornell_box + " --target-error -1", "--target-error");
+    expect_refused(cornell_box + " --method photon", "--method");
+    expect_refused(cornell_box + " --termination depth:x", "--termination depth:x");
+    expect_refused(cornell_box + " --splits 2,2", "--splits 2,2");
+    expect_refused(cornell_box + " --camera nobody", "--camera nobody");
+    expect_refused(cornell_box + " --look-at 0,0,0,0,0,0", "--look-at");
+    expect_refused(cornell_box + " --env-radiance 1,2", "--env-radiance 1,2");
+    expect_refused(cornell_box + " --env " + path("no.hdr"), "no.hdr");
+    expect_refused(cornell_box + " --device nobodys", "nobodys");
+    expect_refused(cornell_box + " --no-such-option", "--no-such-option");
+}
+
+TEST_F(RenderCommand, RefusesOutputsItCannotWriteBeforeRendering) {
+    const Outcome folder_missing = run("render " + cornell_box + " -o " + path("no/where.exr"));
+    EXPECT_EQ(folder_missing.exit_code, 1);
+    EXPECT_NE(folder_missing.words.find("where.exr"), std::string::npos) << folder_missing.words;
+    const Outcome kind = run("render " + cornell_box + " -o " + path("a.jpg"));
+    EXPECT_EQ(kind.exit_code, 1);
+    EXPECT_NE(kind.words.find(".exr or .png"), std::string::npos) << kind.words;
+}
+
+TEST_F(RenderCommand, RefusesASceneWithoutLight) {
+    const auto scene =
+        folder.write("dark.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
+        "nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],
+        "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    expect_refused(scene.string(), "no light");
+    EXPECT_EQ(
+        run("render " + scene.string() + " --env-radiance 1,1,1 --size 4x4 --spp 1 -o " +
+            path("lit.exr"))
+            .exit_code,
+        0);
+}
+
+TEST_F(RenderCommand, StopsAtCtrlCWithWhatThereIs) {
+    const std::string picture = path("stopped.exr");
+    // From its first window on it holds samples; a million would take hours.
+    const Outcome outcome =
+        run("render " + cornell_box + " --size 64x64 --spp 4000000 -o " + picture +
+            " & pid=$!; until grep -q triangles " + path("log") +
+            "; do sleep 0.1; done; sleep 1; kill -INT $pid; wait $pid");
+    EXPECT_EQ(outcome.exit_code, 130);
+    EXPECT_GT(std::stoull(read_exr(picture).metadata.at("wavepath.samples")), 0U);
+}
+
+}  // namespace
+}  // namespace wavepath
