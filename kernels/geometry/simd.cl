@@ -31,11 +31,9 @@ INLINE int least_lane(const int8 x) {
 }
 
 // The lanes whose bits are set, in order, from lane 0 on; what the others hold is undefined.
-#if defined(__AVX512VL__) && __has_builtin(__builtin_ia32_compresssi256_mask)
-INLINE int8 pack_lanes(const int8 x, const uint lanes) {
-    return __builtin_ia32_compresssi256_mask(x, x, (uchar)lanes);
-}
-#elif defined(__AVX2__) && defined(__BMI2__) && __has_builtin(__builtin_ia32_permvarsi256)
+// (pext is microcode on the first two Zens, and slower there than the loop.)
+#if defined(__AVX2__) && defined(__BMI2__) && !defined(__znver1__) && !defined(__znver2__) && \
+    __has_builtin(__builtin_ia32_permvarsi256)
 INLINE int8 pack_lanes(const int8 x, const uint lanes) {
     // A byte of ones for each set bit picks the lane numbers, which pext moves together.
     const ulong bytes = __builtin_ia32_pdep_di(lanes, 0x0101010101010101ul) * 255ul;

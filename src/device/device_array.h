@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/device.h"
+#include "device/huge_pages.h"
 #include "error.h"
 
 #include <cstddef>
@@ -25,6 +26,7 @@ class DeviceArray {
                 "image or --pool, or another --device",
                 what, bytes >> 20U, device.info.max_allocation >> 20U);
         buffer_ = cl::Buffer(device.context, CL_MEM_READ_WRITE, bytes);
+        prefer_huge_pages(device, buffer_, bytes);
     }
 
     DeviceArray(const Device& device, const std::vector<T>& values, const std::string& what)

@@ -13,7 +13,9 @@ Scene room() {
     add_quad(scene, lambert({0.6F, 0.1F, 0.1F}), {0, 0, 0}, {0, 1, 0}, {0, 0, 1});  // left
     add_quad(scene, lambert({0.1F, 0.5F, 0.1F}), {1, 0, 0}, {0, 0, 1}, {0, 1, 0});  // right
     add_box(scene, lambert(grey(0.6F)), {0.15, 0.02, 0.2}, {0.4, 0.5, 0.45}, Facing::outward);
-    add_box(scene, metal({0.9F, 0.7F, 0.4F}, 0.5F), {0.55, 0.02, 0.4}, {0.85, 0.3, 0.7}, Facing::outward);
+    add_box(
+        scene, metal({0.9F, 0.7F, 0.4F}, 0.5F), {0.55, 0.02, 0.4}, {0.85, 0.3, 0.7},
+        Facing::outward);
     add_quad(scene, lambert(grey(0), grey(4)), {0.2, 0.95, 0.2}, {0.6, 0, 0}, {0, 0, 0.6});
     return scene;
 }
@@ -33,17 +35,21 @@ TEST(Agreement, OfAllMethodsThatSeeTheLight) {
     }
     for (std::size_t a = 0; a < results.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
-            // `path` and `bsdf` meet the light by chance only: 0.5 % would take them 3e7 samples, the others 3e6
+            // `path` and `bsdf` meet the light by chance only: 0.5 % would take them 3e7 samples,
+            // the others 3e6
             const double bias = a < 3 ? 0.012 : 0.03;
             for (const char* channel : {"R", "G", "B"}) {
                 SCOPED_TRACE(fmt::format("{} and {}, {}", runs[a].method, runs[b].method, channel));
-                EXPECT_TRUE(agree(image_mean(results[a], channel), image_mean(results[b], channel), {.bias = bias, .tests = 30}));
+                EXPECT_TRUE(agree(
+                    image_mean(results[a], channel), image_mean(results[b], channel),
+                    {.bias = bias, .tests = 30}));
             }
         }
     }
 }
 
-// Two lights of unequal area and radiance: choosing by area or by power changes the noise and nothing else.
+// Two lights of unequal area and radiance: choosing by area or by power changes the noise and
+// nothing else.
 TEST(Agreement, OfLightChoices) {
     Scene scene = scene_named("two lights");
     add_square(scene, lambert(grey(0.5F)), {0, 0, 0}, {0, 0, 1}, 4);
@@ -63,7 +69,9 @@ TEST(Agreement, OfLightChoices) {
         for (std::size_t b = 0; b < a; ++b) {
             SCOPED_TRACE(fmt::format("runs {} and {}", a, b));
             for (const char* channel : {"R", "G"})
-                EXPECT_TRUE(agree(shared_mean(results[a], channel), shared_mean(results[b], channel), {.bias = 0.01, .tests = 12}));
+                EXPECT_TRUE(agree(
+                    shared_mean(results[a], channel), shared_mean(results[b], channel),
+                    {.bias = 0.01, .tests = 12}));
         }
     }
 }

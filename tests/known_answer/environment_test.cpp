@@ -25,24 +25,30 @@ RenderResult plate_under(const Environment& environment, const Vec3d& normal, co
     Scene scene = scene_named("plate");
     add_square(scene, lambert(grey(1)), {0, 0, 0}, normal, 1);
     scene.environment = environment;
-    return render_for(strictness_of(method), scene, square_settings(method, close_up({0, 0, 0}, normal, 0.1, 0.01), 16, 256));
+    return render_for(
+        strictness_of(method), scene,
+        square_settings(method, close_up({0, 0, 0}, normal, 0.1, 0.01), 16, 256));
 }
 
 TEST(Environment, ConstantLightsAWhitePlateToItsOwnRadiance) {
     for (const char* method : {"path", "bsdf", "direct", "mis"}) {
         SCOPED_TRACE(method);
-        EXPECT_TRUE(has_mean(shared_mean(plate_under(constant_environment(1), {1, 2, 3}, method)), 1, strictness_of(method)));
+        EXPECT_TRUE(has_mean(
+            shared_mean(plate_under(constant_environment(1), {1, 2, 3}, method)), 1,
+            strictness_of(method)));
     }
 }
 
 TEST(Environment, MapOfOnesIsTheConstant) {
     for (const char* method : {"path", "direct", "mis"}) {
         SCOPED_TRACE(method);
-        EXPECT_TRUE(has_mean(shared_mean(plate_under(map_of(1), {1, 2, 3}, method)), 1, strictness_of(method)));
+        EXPECT_TRUE(has_mean(
+            shared_mean(plate_under(map_of(1), {1, 2, 3}, method)), 1, strictness_of(method)));
     }
 }
 
-// The bilinear lookup spreads the texel over a tent two texels wide; E / pi by the midpoint rule in double.
+// The bilinear lookup spreads the texel over a tent two texels wide; E / pi by the midpoint rule in
+// double.
 double irradiance_of_texel(uint32_t column, uint32_t row, float value, const Vec3d& normal) {
     const double length = std::hypot(normal[0], normal[1], normal[2]);
     constexpr int steps = 400;
@@ -53,8 +59,10 @@ double irradiance_of_texel(uint32_t column, uint32_t row, float value, const Vec
             const double y = -1 + (k + 0.5) * 2 / steps;
             const double phi = 2 * pi * ((column + 0.5 + x) / width - 0.5);
             const double theta = pi * (row + 0.5 + y) / height;
-            const double cosine = (std::sin(theta) * std::cos(phi) * normal[0] + std::cos(theta) * normal[1] +
-                                   std::sin(theta) * std::sin(phi) * normal[2]) / length;
+            const double cosine =
+                (std::sin(theta) * std::cos(phi) * normal[0] + std::cos(theta) * normal[1] +
+                 std::sin(theta) * std::sin(phi) * normal[2]) /
+                length;
             const double tent = (1 - std::abs(x)) * (1 - std::abs(y));
             sum += tent * std::max(cosine, 0.0) * std::sin(theta);
         }
@@ -71,8 +79,10 @@ TEST(Environment, OneBrightTexelLightsFromItsPlace) {
     for (const Vec3d& normal : {Vec3d{0, 1, 0}, Vec3d{-0.2, 0.5, 1}, Vec3d{1, 1, 0.5}}) {
         const double truth = irradiance_of_texel(column, row, 100, normal);
         for (const char* method : {"direct", "mis"}) {
-            SCOPED_TRACE(fmt::format("{}, normal ({}, {}, {})", method, normal[0], normal[1], normal[2]));
-            EXPECT_TRUE(has_mean(shared_mean(plate_under(map, normal, method)), truth, strictness_of(method)));
+            SCOPED_TRACE(
+                fmt::format("{}, normal ({}, {}, {})", method, normal[0], normal[1], normal[2]));
+            EXPECT_TRUE(has_mean(
+                shared_mean(plate_under(map, normal, method)), truth, strictness_of(method)));
         }
     }
 }

@@ -1,5 +1,5 @@
-// S1: a closed box of Lambert walls that all emit. L = Le / (1 - rho) at every point, and with at most D scatterings
-// L_D = Le (1 - rho^(D+1)) / (1 - rho). The channels hold three albedos at once.
+// S1: a closed box of Lambert walls that all emit. L = Le / (1 - rho) at every point, and with at
+// most D scatterings L_D = Le (1 - rho^(D+1)) / (1 - rho). The channels hold three albedos at once.
 #include "support/rendering.h"
 
 #include <cmath>
@@ -20,15 +20,17 @@ const Camera inside = perspective({0.2, 0.1, 0.3}, {-1, -0.4, -0.9}, 1.6);
 
 TEST(Furnace, GivesTheGeometricSeries) {
     for (const char* method : {"path", "bsdf", "mis"}) {
-        // albedo .9 has a relative variance of .9 by roulette alone: 2e6 samples to find 0.5 %, and `path` takes them
+        // albedo .9 has a relative variance of .9 by roulette alone: 2e6 samples to find 0.5 %, and
+        // `path` takes them
         const bool thorough = std::string(method) == "path";
         const RenderResult result =
             render_scene(furnace(), square_settings(method, inside, 64, thorough ? 512 : 192));
         for (int c = 0; c < 3; ++c) {
             SCOPED_TRACE(fmt::format("{}, albedo {}", method, albedos[c]));
             const double truth = 1 / (1 - albedos[c]);
-            EXPECT_TRUE(
-                has_mean(shared_mean(result, channels[c]), truth, {.bias = thorough || c < 2 ? 0.005 : 0.01}));
+            EXPECT_TRUE(has_mean(
+                shared_mean(result, channels[c]), truth,
+                {.bias = thorough || c < 2 ? 0.005 : 0.01}));
             for (const Estimate& block : block_means(result, channels[c]))
                 EXPECT_TRUE(has_mean(block, truth, {.bias = 0.1, .tests = 64}));
         }
@@ -52,8 +54,8 @@ TEST(Furnace, StopsAtTheDepthAsked) {
     }
 }
 
-// Survival r at every vertex: E X^2 = (1 + rho) / (1 - rho) / (1 - rho^2 / r). Asserted where r > rho^(4/3), so that the
-// fourth moment exists and the measured variance means something.
+// Survival r at every vertex: E X^2 = (1 + rho) / (1 - rho) / (1 - rho^2 / r). Asserted where r >
+// rho^(4/3), so that the fourth moment exists and the measured variance means something.
 TEST(Furnace, RouletteHasThePredictedVariance) {
     for (const float survival : {0.8F, 0.9F}) {
         RenderSettings settings = square_settings("path", inside, 512, 1);
@@ -66,7 +68,8 @@ TEST(Furnace, RouletteHasThePredictedVariance) {
             const double rho = albedos[c];
             const double second = (1 + rho) / (1 - rho) / (1 - rho * rho / survival);
             EXPECT_TRUE(has_mean(
-                sample_variance(result, channels[c]), second - 1 / ((1 - rho) * (1 - rho)), {.bias = 0.1}));
+                sample_variance(result, channels[c]), second - 1 / ((1 - rho) * (1 - rho)),
+                {.bias = 0.1}));
             EXPECT_TRUE(has_mean(shared_mean(result, channels[c]), 1 / (1 - rho), {.bias = 0.02}));
         }
     }

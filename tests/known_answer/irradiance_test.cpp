@@ -1,5 +1,6 @@
-// S3: radiance E / pi of a white Lambert patch under a black polygon of radiance 1; truths by Lambert's formula in 40
-// digits. Variances of one sample as predicted for cosine sampling, area sampling and the power heuristic.
+// S3: radiance E / pi of a white Lambert patch under a black polygon of radiance 1; truths by
+// Lambert's formula in 40 digits. Variances of one sample as predicted for cosine sampling, area
+// sampling and the power heuristic.
 #include "support/rendering.h"
 
 #include <algorithm>
@@ -16,8 +17,8 @@ const Material white = lambert(grey(1));
 
 struct Receiver {
     Vec3d p, normal;
-    double irradiance;     // of a light of radiance 1
-    double distance = 1;   // the smallest length nearby: patch and footprint stay far below it
+    double irradiance;    // of a light of radiance 1
+    double distance = 1;  // the smallest length nearby: patch and footprint stay far below it
 };
 
 // One patch under `light`, and the camera that sees a hundredth of its least distance.
@@ -26,7 +27,8 @@ struct PatchView {
     Camera camera;
 
     PatchView(Scene lights, const Receiver& r)
-        : scene(std::move(lights)), camera(close_up(r.p, r.normal, 0.2 * r.distance, 2e-3 * r.distance)) {
+        : scene(std::move(lights)),
+          camera(close_up(r.p, r.normal, 0.2 * r.distance, 2e-3 * r.distance)) {
         add_square(scene, white, r.p, r.normal, 0.02 * r.distance);
     }
 };
@@ -77,13 +79,15 @@ const Receiver triangle_points[] = {
 void expect_irradiance(
     const Scene& lights, const Receiver& receiver, const char* method, double bias = 0.005) {
     SCOPED_TRACE(fmt::format(
-        "{}, {} at ({}, {}, {}), normal ({}, {}, {})", lights.name, method, receiver.p[0], receiver.p[1],
-        receiver.p[2], receiver.normal[0], receiver.normal[1], receiver.normal[2]));
+        "{}, {} at ({}, {}, {}), normal ({}, {}, {})", lights.name, method, receiver.p[0],
+        receiver.p[1], receiver.p[2], receiver.normal[0], receiver.normal[1], receiver.normal[2]));
     const PatchView view(lights, receiver);
     // few pixels of many samples: Sobol points gain more than pixels do
-    const RenderResult result = render_for({}, view.scene, square_settings(method, view.camera, 16, 256));
+    const RenderResult result =
+        render_for({}, view.scene, square_settings(method, view.camera, 16, 256));
     // truth_error: the second order of the footprint
-    EXPECT_TRUE(has_mean(shared_mean(result), receiver.irradiance / pi, {.bias = bias, .truth_error = 1e-5}));
+    EXPECT_TRUE(has_mean(
+        shared_mean(result), receiver.irradiance / pi, {.bias = bias, .truth_error = 1e-5}));
 }
 
 TEST(Irradiance, OfASquareLightByLightSampling) {
@@ -110,7 +114,8 @@ TEST(Irradiance, OfATriangleLight) {
         for (const Receiver& r : triangle_points) expect_irradiance(triangle_light(), r, method);
 }
 
-// Receivers close to the light: area sampling has a relative variance of A / (3 pi d^2), the power heuristic stays calm.
+// Receivers close to the light: area sampling has a relative variance of A / (3 pi d^2), the power
+// heuristic stays calm.
 TEST(Irradiance, InTheGapUnderTheLight) {
     const struct {
         double gap, centre, edge, corner;
@@ -121,13 +126,16 @@ TEST(Irradiance, InTheGapUnderTheLight) {
     };
     for (const auto& [gap, centre, edge, corner] : rows) {
         expect_irradiance(square_light(), {{0, 0, 1 - gap}, {0, 0, 1}, pi * centre, gap}, "mis");
-        expect_irradiance(square_light(), {{0.5, 0, 1 - gap}, {0, 0, 1}, pi * edge, 0.1 * gap}, "mis", 0.01);
-        expect_irradiance(square_light(), {{0.5, 0.5, 1 - gap}, {0, 0, 1}, pi * corner, 0.1 * gap}, "mis", 0.01);
+        expect_irradiance(
+            square_light(), {{0.5, 0, 1 - gap}, {0, 0, 1}, pi * edge, 0.1 * gap}, "mis", 0.01);
+        expect_irradiance(
+            square_light(), {{0.5, 0.5, 1 - gap}, {0, 0, 1}, pi * corner, 0.1 * gap}, "mis", 0.01);
     }
 }
 
 TEST(Irradiance, OfAWallThatTouchesTheLight) {
-    for (const auto& [gap, factor] : {std::pair{0.1, 0.42254486023906}, {1e-2, 0.49215895216345}, {1e-3, 0.49921579759626}})
+    for (const auto& [gap, factor] :
+         {std::pair{0.1, 0.42254486023906}, {1e-2, 0.49215895216345}, {1e-3, 0.49921579759626}})
         expect_irradiance(light_at_wall(), {{0, 0, 1 - gap}, {1, 0, 0}, pi * factor, gap}, "mis");
 }
 
@@ -139,8 +147,16 @@ TEST(Irradiance, HasThePredictedVariance) {
     } rows[] = {
         {square_light(), floor_points[0], 3.17612, 0.0303545, 0.0336761},
         {square_light(), floor_points[2], 6.21857, 0.255292, 0.224867},
-        {square_light(), {{0, 0, 0.9}, {0, 0, 1}, pi * 0.96833955697404, 0.1}, 0.0326956, 10.3151, 0.139377},
-        {light_at_wall(), {{0, 0, 0.9}, {1, 0, 0}, pi * 0.42254486023906, 0.1}, 1.36661, 6.42329, 0.982301},
+        {square_light(),
+         {{0, 0, 0.9}, {0, 0, 1}, pi * 0.96833955697404, 0.1},
+         0.0326956,
+         10.3151,
+         0.139377},
+        {light_at_wall(),
+         {{0, 0, 0.9}, {1, 0, 0}, pi * 0.42254486023906, 0.1},
+         1.36661,
+         6.42329,
+         0.982301},
     };
     for (const auto& row : rows) {
         const PatchView view(row.lights, row.receiver);
@@ -157,9 +173,10 @@ TEST(Irradiance, HasThePredictedVariance) {
     }
 }
 
-// A wall that a long light touches: the samples of `direct` have tail index 3/2, so its error falls as N^(-1/3), and the
-// z-test does not apply; `mis` is back at N^(-1/2). The slope is that of the median difference between two seeds, which
-// needs no truth, over the 16 pixels along the wall, each of which reaches up to the light.
+// A wall that a long light touches: the samples of `direct` have tail index 3/2, so its error falls
+// as N^(-1/3), and the z-test does not apply; `mis` is back at N^(-1/2). The slope is that of the
+// median difference between two seeds, which needs no truth, over the 16 pixels along the wall,
+// each of which reaches up to the light.
 TEST(Irradiance, SlopesWhereTheLightTouchesTheWall) {
     Scene scene = scene_named("long wall");
     add_quad(scene, white, {0, -10, 0}, {0, 20, 0}, {0, 0, 1});
@@ -183,7 +200,8 @@ TEST(Irradiance, SlopesWhereTheLightTouchesTheWall) {
         return differences[32];
     };
     const auto slope = [&](const char* method) {
-        return std::log(median_difference(method, 8192) / median_difference(method, 128)) / std::log(64.0);
+        return std::log(median_difference(method, 8192) / median_difference(method, 128)) /
+               std::log(64.0);
     };
     // a median of 64 is good to 15 %, a slope over a factor of 64 to 0.05
     EXPECT_NEAR(slope("direct"), -1.0 / 3, 0.1);

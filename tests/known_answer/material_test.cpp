@@ -1,5 +1,5 @@
-// S8, S9: directional albedos of the glTF materials, as a flat plate in a uniform environment of radiance 1. The tables
-// are right to 3e-6; base colours 1 and .5 are two channels of one picture.
+// S8, S9: directional albedos of the glTF materials, as a flat plate in a uniform environment of
+// radiance 1. The tables are right to 3e-6; base colours 1 and .5 are two channels of one picture.
 #include "support/rendering.h"
 
 #include <cmath>
@@ -14,13 +14,13 @@ struct Row {
 };
 
 const Row rows[] = {
-    {.1F, 1, .999917, .519957, .999898, .499949},    {.1F, .5, 1.025378, .547758, .999742, .515573},
-    {.1F, .2, 1.297428, .824779, .998587, .661891},  {.3F, 1, .999553, .519593, .990665, .495335},
-    {.3F, .5, 1.025359, .547739, .975089, .503750},  {.3F, .2, 1.198276, .725627, .914026, .569731},
-    {.5F, 1, .996580, .516620, .915814, .457921},    {.5F, .5, 1.010985, .533365, .857263, .439805},
-    {.5F, .2, 1.073558, .600909, .848160, .473212},  {.7F, 1, .987876, .507916, .697750, .348898},
-    {.7F, .5, .993436, .515816, .703974, .357214},   {.7F, .2, 1.017525, .544877, .792716, .417462},
-    {1, 1, .972228, .492267, .306853, .153444},      {1, .5, .976138, .498518, .450694, .226841},
+    {.1F, 1, .999917, .519957, .999898, .499949},   {.1F, .5, 1.025378, .547758, .999742, .515573},
+    {.1F, .2, 1.297428, .824779, .998587, .661891}, {.3F, 1, .999553, .519593, .990665, .495335},
+    {.3F, .5, 1.025359, .547739, .975089, .503750}, {.3F, .2, 1.198276, .725627, .914026, .569731},
+    {.5F, 1, .996580, .516620, .915814, .457921},   {.5F, .5, 1.010985, .533365, .857263, .439805},
+    {.5F, .2, 1.073558, .600909, .848160, .473212}, {.7F, 1, .987876, .507916, .697750, .348898},
+    {.7F, .5, .993436, .515816, .703974, .357214},  {.7F, .2, 1.017525, .544877, .792716, .417462},
+    {1, 1, .972228, .492267, .306853, .153444},     {1, .5, .976138, .498518, .450694, .226841},
     {1, .2, .984430, .511781, .641648, .327838},
 };
 
@@ -39,10 +39,12 @@ void expect_table(const char* method, float least_roughness) {
     for (const Row& row : rows) {
         if (row.roughness < least_roughness) continue;
         SCOPED_TRACE(fmt::format("{}, roughness {}, mu {}", method, row.roughness, row.mu));
-        const RenderResult layered = plate_in_furnace(dielectric(white_and_half, row.roughness), row.mu, method);
+        const RenderResult layered =
+            plate_in_furnace(dielectric(white_and_half, row.roughness), row.mu, method);
         EXPECT_TRUE(has_mean(shared_mean(layered, "R"), row.dielectric_1, strictness));
         EXPECT_TRUE(has_mean(shared_mean(layered, "G"), row.dielectric_half, strictness));
-        const RenderResult metallic = plate_in_furnace(metal(white_and_half, row.roughness), row.mu, method);
+        const RenderResult metallic =
+            plate_in_furnace(metal(white_and_half, row.roughness), row.mu, method);
         EXPECT_TRUE(has_mean(shared_mean(metallic, "R"), row.metal_1, strictness));
         EXPECT_TRUE(has_mean(shared_mean(metallic, "G"), row.metal_half, strictness));
     }
@@ -60,7 +62,8 @@ TEST(MaterialInFurnace, SampledAsALight) {
     for (const Row& row : rows) {
         if (row.roughness < 1) continue;
         SCOPED_TRACE(fmt::format("mu {}", row.mu));
-        const RenderResult layered = plate_in_furnace(dielectric(white_and_half, row.roughness), row.mu, "direct");
+        const RenderResult layered =
+            plate_in_furnace(dielectric(white_and_half, row.roughness), row.mu, "direct");
         EXPECT_TRUE(has_mean(shared_mean(layered, "R"), row.dielectric_1, {.truth_error = 1e-5}));
     }
 }
@@ -74,7 +77,8 @@ TEST(MaterialInFurnace, LobesAndCosineAgreeWhereTheTableHasNothing) {
     const RenderResult cosine = plate_in_furnace(half, 0.6, "path");
     for (const char* channel : {"R", "G", "B"}) {
         SCOPED_TRACE(channel);
-        EXPECT_TRUE(agree(shared_mean(lobes, channel), shared_mean(cosine, channel), {.bias = 0.01}));
+        EXPECT_TRUE(
+            agree(shared_mean(lobes, channel), shared_mean(cosine, channel), {.bias = 0.01}));
     }
 }
 
@@ -88,7 +92,8 @@ TEST(MirrorInFurnace, ChangesNothing) {
         const Camera camera = perspective({0.7, 0.6, 0.8}, {0, 0, 0}, 0.6);
         const RenderResult result = render_scene(scene, square_settings(method, camera, 64, 320));
         EXPECT_TRUE(has_mean(shared_mean(result), 1));
-        for (const Estimate& block : block_means(result)) EXPECT_TRUE(has_mean(block, 1, {.bias = 0.1, .tests = 64}));
+        for (const Estimate& block : block_means(result))
+            EXPECT_TRUE(has_mean(block, 1, {.bias = 0.1, .tests = 64}));
     }
 }
 
@@ -104,13 +109,15 @@ TEST(IsothermalEnclosure, HasOneRadiance) {
     wall(0.9F, {1, 0, 0}, {0, 0, 1}, {0, 1, 0});
     wall(0.0F, {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
     add_quad(scene, metal(grey(1), 0), {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
-    add_box(scene, lambert(grey(0.6F), grey(0.4F)), {0.2, 0.1, 0.3}, {0.5, 0.4, 0.5}, Facing::outward);
+    add_box(
+        scene, lambert(grey(0.6F), grey(0.4F)), {0.2, 0.1, 0.3}, {0.5, 0.4, 0.5}, Facing::outward);
     for (const char* method : {"bsdf", "mis"}) {
         SCOPED_TRACE(method);
         const Camera camera = perspective({0.8, 0.7, 0.9}, {0.3, 0.4, 0.2}, 1.3);
         const RenderResult result = render_scene(scene, square_settings(method, camera, 64, 320));
         EXPECT_TRUE(has_mean(image_mean(result), 1));
-        for (const Estimate& block : block_means(result)) EXPECT_TRUE(has_mean(block, 1, {.bias = 0.1, .tests = 64}));
+        for (const Estimate& block : block_means(result))
+            EXPECT_TRUE(has_mean(block, 1, {.bias = 0.1, .tests = 64}));
     }
 }
 

@@ -1,4 +1,5 @@
-// KHR_lights_punctual on a Lambert floor: one light, one bounce, nothing random but the place in a tiny pixel.
+// KHR_lights_punctual on a Lambert floor: one light, one bounce, nothing random but the place in a
+// tiny pixel.
 #include "support/rendering.h"
 
 #include <cmath>
@@ -11,12 +12,14 @@ constexpr double pi = std::numbers::pi;
 constexpr double albedo = 0.5;
 
 // The radiance of the floor z = 0 at the origin.
-testing::AssertionResult floor_radiance(const std::vector<PunctualLight>& lights, double truth, const char* method) {
+testing::AssertionResult floor_radiance(
+    const std::vector<PunctualLight>& lights, double truth, const char* method) {
     Scene scene = scene_named("floor");
     add_square(scene, lambert({0.5F, 0.25F, 0}), {0, 0, 0}, {0, 0, 1}, 2);
     scene.lights = lights;
     const Camera camera = close_up({0, 0, 0}, {0, 0, 1}, 0.01, 1e-5);
-    const RenderResult result = render_scene(scene, square_settings(method, camera, 16, lights.size() > 1 ? 1024 : 2));
+    const RenderResult result =
+        render_scene(scene, square_settings(method, camera, 16, lights.size() > 1 ? 1024 : 2));
     const Estimate red = shared_mean(result, "R");
     const Estimate green = shared_mean(result, "G");
     // the footprint's first-order term shrinks with the mean over the pixel: 1e-5 of the distance

@@ -19,7 +19,8 @@ const Camera at_origin = close_up({0, 0, 0}, {0, 0, 1}, 0.1, 2e-3);
 TEST(AreaLight, EmitsFromItsFrontOnly) {
     for (const char* method : {"bsdf", "direct", "mis"}) {
         SCOPED_TRACE(method);
-        const RenderResult back = render_scene(floor_and_light({0, 0, 1}, false), square_settings(method, at_origin, 64, 16));
+        const RenderResult back = render_scene(
+            floor_and_light({0, 0, 1}, false), square_settings(method, at_origin, 64, 16));
         EXPECT_EQ(shared_mean(back).mean, 0);
     }
 }
@@ -28,8 +29,8 @@ TEST(AreaLight, EmitsBothWaysWhenDoubleSided) {
     for (const Vec3d& normal : {Vec3d{0, 0, 1}, Vec3d{0, 0, -1}}) {
         for (const char* method : {"bsdf", "direct", "mis"}) {
             SCOPED_TRACE(method);
-            const RenderResult result =
-                render_for({}, floor_and_light(normal, true), square_settings(method, at_origin, 16, 256));
+            const RenderResult result = render_for(
+                {}, floor_and_light(normal, true), square_settings(method, at_origin, 16, 256));
             EXPECT_TRUE(has_mean(shared_mean(result), below_centre, {.truth_error = 1e-5}));
         }
     }
@@ -37,11 +38,13 @@ TEST(AreaLight, EmitsBothWaysWhenDoubleSided) {
 
 // A mirroring node turns the winding; the light stays a light to the floor below it.
 TEST(AreaLight, KeepsItsFrontUnderAMirroringNode) {
-    for (const Matrix4& mirror : {Matrix4{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
-                                  Matrix4{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}) {
+    for (const Matrix4& mirror :
+         {Matrix4{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+          Matrix4{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}) {
         Scene scene = floor_and_light({0, 0, -1}, false);
         scene.instances[1].to_world = mirror;
-        const RenderResult result = render_for({}, scene, square_settings("mis", at_origin, 16, 256));
+        const RenderResult result =
+            render_for({}, scene, square_settings("mis", at_origin, 16, 256));
         EXPECT_TRUE(has_mean(shared_mean(result), below_centre, {.truth_error = 1e-5}));
     }
 }
@@ -67,15 +70,16 @@ TEST(VertexColours, MultiplyTheBaseColour) {
     EXPECT_NEAR(result.film.image.channels.at("albedo.R")[0], 0.4, 1e-6);
 }
 
-// Smooth normals on a convex body in a uniform environment: rho, less what the faces hide from the tilted hemisphere, a
-// quarter of the tilt squared.
+// Smooth normals on a convex body in a uniform environment: rho, less what the faces hide from the
+// tilted hemisphere, a quarter of the tilt squared.
 TEST(VertexNormals, KeepTheEnergyOfASmoothSphere) {
     constexpr int subdivisions = 4;
     Scene scene = scene_named("smooth sphere");
     Primitive& sphere = add_icosphere(scene, lambert(grey(0.5F)), {0, 0, 0}, 1, subdivisions);
     sphere.normals = sphere.positions;
     scene.environment = constant_environment(1);
-    RenderSettings settings = square_settings("bsdf", orthographic({0, 0, 3}, {0, 0, 0}, 1), 64, 64);
+    RenderSettings settings =
+        square_settings("bsdf", orthographic({0, 0, 3}, {0, 0, 0}, 1), 64, 64);
     settings.termination = {TerminationKind::zero, 0, 1};
     const RenderResult result = render_scene(scene, settings);
     const double tilt2 = 2 * icosphere_sagitta(subdivisions);

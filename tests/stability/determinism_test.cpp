@@ -19,7 +19,8 @@ Scene room() {
 
 // 37 x 23 pixels of 13 samples: nothing divides evenly.
 RenderSettings uneven() {
-    RenderSettings settings = square_settings("mis", perspective({0.8, 0.2, 0.9}, {-0.2, -0.4, -0.3}, 1.2), 37, 13);
+    RenderSettings settings =
+        square_settings("mis", perspective({0.8, 0.2, 0.9}, {-0.2, -0.4, -0.3}, 1.2), 37, 13);
     settings.height = 23;
     return settings;
 }
@@ -55,20 +56,23 @@ TEST(Determinism, OfTwoSeedsTheyDiffer) {
     RenderSettings settings = uneven();
     settings.seed = 2;
     EXPECT_NE(
-        render_scene(room(), uneven()).film.image.channels.at("R"), render_scene(room(), settings).film.image.channels.at("R"));
+        render_scene(room(), uneven()).film.image.channels.at("R"),
+        render_scene(room(), settings).film.image.channels.at("R"));
 }
 
 // The number of threads is fixed when PoCL starts: a process each.
 TEST(Determinism, OfOneCoreAndTwo) {
     if (test_device().info.platform != "Portable Computing Language")
-        GTEST_SKIP() << "the number of cores can be chosen on PoCL only, not on " << test_device().info.platform;
+        GTEST_SKIP() << "the number of cores can be chosen on PoCL only, not on "
+                     << test_device().info.platform;
     const TemporaryFolder folder;
     const auto picture = [&](const char* threads) {
         const EnvironmentVariable count("POCL_MAX_PTHREAD_COUNT", threads);
         const std::string name = std::string("threads_") + threads + ".exr";
-        const std::string command = std::string("'" WAVEPATH_BINARY "' render '" WAVEPATH_SOURCE_DIR
-                                                "/scenes/cornell_box/scene.gltf' --size 48x40 --spp 20 --quiet -o '") +
-                                    (folder / name).string() + "'";
+        const std::string command =
+            std::string("'" WAVEPATH_BINARY "' render '" WAVEPATH_SOURCE_DIR
+                        "/scenes/cornell_box/scene.gltf' --size 48x40 --spp 20 --quiet -o '") +
+            (folder / name).string() + "'";
         EXPECT_EQ(std::system(command.c_str()), 0) << command;
         return folder.read(name);
     };

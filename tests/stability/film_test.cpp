@@ -12,15 +12,17 @@
 namespace wavepath {
 namespace {
 
-// Black walls that emit .1: every sample is float(.1). A plain sum in single precision is off by 1 % after 10^6.
+// Black walls that emit .1: every sample is float(.1). A plain sum in single precision is off by 1
+// % after 10^6.
 void expect_constant(uint64_t samples) {
     Scene scene = scene_named("constant");
     add_box(scene, lambert(grey(0), grey(0.1F)), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
-    const RenderResult result =
-        render_scene(scene, square_settings("path", perspective({0, 0, 0}, {1, 0.2, 0.3}, 1), 4, samples));
+    const RenderResult result = render_scene(
+        scene, square_settings("path", perspective({0, 0, 0}, {1, 0.2, 0.3}, 1), 4, samples));
     EXPECT_EQ(result.samples, samples);
     for (const float pixel : result.film.image.channels.at("R")) EXPECT_NEAR(pixel / 0.1F, 1, 1e-6);
-    for (const float variance : result.film.image.channels.at("variance.R")) EXPECT_LT(variance, 1e-14);
+    for (const float variance : result.film.image.channels.at("variance.R"))
+        EXPECT_LT(variance, 1e-14);
 }
 
 TEST(Film, StaysRightAtAMillionSamples) {
@@ -37,9 +39,12 @@ TEST(Film, CountsNonFiniteSamples) {
     Scene scene = scene_named("infinite lamp");
     add_box(scene, lambert(grey(0), grey(1)), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
     // covers pixel (5, 2) of 8 x 8 and no other
-    add_square(scene, lambert(grey(0), {std::numeric_limits<float>::infinity(), 0, 0}), {0.375, 0.375, 0}, {0, 0, 1}, 0.24999);
+    add_square(
+        scene, lambert(grey(0), {std::numeric_limits<float>::infinity(), 0, 0}), {0.375, 0.375, 0},
+        {0, 0, 1}, 0.24999);
     const Camera camera = orthographic({0, 0, 0.5}, {0, 0, 0}, 2);
-    const RenderResult result = render(test_device(), scene, square_settings("path", camera, 8, 40));
+    const RenderResult result =
+        render(test_device(), scene, square_settings("path", camera, 8, 40));
     // the square covers .9999 of the pixel: every sample of it, but for one in 10^4
     EXPECT_EQ(result.film.nonfinite.samples, 40U);
     EXPECT_EQ(result.film.nonfinite.x, 5U);
@@ -54,10 +59,12 @@ TEST(Film, CountsNonFiniteSamples) {
 
 TEST(Film, CountsThroughputsThatAreNotNumbers) {
     Scene scene = scene_named("broken paint");
-    add_square(scene, lambert(grey(std::numeric_limits<float>::quiet_NaN())), {0, 0, 0}, {0, 0, 1}, 1);
+    add_square(
+        scene, lambert(grey(std::numeric_limits<float>::quiet_NaN())), {0, 0, 0}, {0, 0, 1}, 1);
     scene.environment = constant_environment(1);
-    const RenderResult result =
-        render(test_device(), scene, square_settings("bsdf", orthographic({0, 0, 1}, {0, 0, 0}, 0.5), 4, 5));
+    const RenderResult result = render(
+        test_device(), scene,
+        square_settings("bsdf", orthographic({0, 0, 1}, {0, 0, 0}, 0.5), 4, 5));
     EXPECT_EQ(result.film.nonfinite.samples, 4U * 4 * 5);
     EXPECT_EQ(result.film.nonfinite.x, 0U);
     EXPECT_EQ(result.film.nonfinite.y, 0U);
@@ -76,7 +83,8 @@ std::string trapped_message() {
     return error_of([&] { render(test_device(), trap(), settings); });
 }
 
-void replace_in(const std::filesystem::path& file, const std::string& text, const std::string& replacement) {
+void replace_in(
+    const std::filesystem::path& file, const std::string& text, const std::string& replacement) {
     std::stringstream content;
     content << std::ifstream(file).rdbuf();
     std::string changed = content.str();
@@ -88,7 +96,8 @@ void replace_in(const std::filesystem::path& file, const std::string& text, cons
 // With a limit of 1000 instead of 10^6 scatterings in the kernels, so that it ends in a second.
 TEST(Runaway, StopsWithItsPixelAndSample) {
     const TemporaryFolder folder;
-    std::filesystem::copy(WAVEPATH_SOURCE_DIR "/kernels", folder.path(), std::filesystem::copy_options::recursive);
+    std::filesystem::copy(
+        WAVEPATH_SOURCE_DIR "/kernels", folder.path(), std::filesystem::copy_options::recursive);
     replace_in(folder / "shared/queues.h", "1000000u", "1000u");
     replace_in(folder / "stages/sample_indirect.cl", "params.max_scatterings", "MAX_SCATTERINGS");
     const EnvironmentVariable kernels("WAVEPATH_KERNELS", folder.path().string());
@@ -99,7 +108,9 @@ TEST(Runaway, StopsWithItsPixelAndSample) {
 TEST(Runaway, StopsAfterAMillionScatterings_long) {
     WAVEPATH_SKIP_UNLESS_LONG();
     const std::string message = trapped_message();
-    EXPECT_TRUE(message.starts_with("pixel 0, sample 0: the path is still alive after 1000000 scatterings")) << message;
+    EXPECT_TRUE(
+        message.starts_with("pixel 0, sample 0: the path is still alive after 1000000 scatterings"))
+        << message;
 }
 
 }  // namespace

@@ -26,21 +26,29 @@ RenderResult corner_at(double scale, const Vec3d& shift) {
     return render_scene(scene, square_settings("mis", camera, 64, 16));
 }
 
-// The same random numbers in both pictures: what differs is rounding, which turns a path here and there.
+// The same random numbers in both pictures: what differs is rounding, which turns a path here and
+// there.
 TEST(Invariance, UnderTranslationAndScale) {
     const struct {
         double scale;
         Vec3d shift;
-    } cases[] = {{1, {1e3, -1e3, 1e3}}, {1e-4, {0, 0, 0}}, {1e4, {0, 0, 0}}, {1e4, {1e6, 0, -1e6}}, {1e-4, {1, 0, 0}}};
+    } cases[] = {
+        {1, {1e3, -1e3, 1e3}},
+        {1e-4, {0, 0, 0}},
+        {1e4, {0, 0, 0}},
+        {1e4, {1e6, 0, -1e6}},
+        {1e-4, {1, 0, 0}}};
     const RenderResult home = corner_at(1, {0, 0, 0});
     const std::vector<float>& before = home.film.image.channels.at("R");
     const double mean = image_mean(home).mean;
     for (const auto& [scale, shift] : cases) {
-        SCOPED_TRACE(fmt::format("scale {}, shift ({}, {}, {})", scale, shift[0], shift[1], shift[2]));
+        SCOPED_TRACE(
+            fmt::format("scale {}, shift ({}, {}, {})", scale, shift[0], shift[1], shift[2]));
         const RenderResult result = corner_at(scale, shift);
         const std::vector<float>& after = result.film.image.channels.at("R");
         std::vector<double> ratios;
-        for (std::size_t i = 0; i < after.size(); ++i) ratios.push_back(1 + (after[i] - before[i]) / mean);
+        for (std::size_t i = 0; i < after.size(); ++i)
+            ratios.push_back(1 + (after[i] - before[i]) / mean);
         EXPECT_TRUE(has_mean(estimate_of(ratios), 1, {.tests = 5}));
         // the depth layer stays in metres
         constexpr std::size_t middle = 32 * 64 + 32;

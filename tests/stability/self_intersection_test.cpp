@@ -7,8 +7,8 @@
 namespace wavepath {
 namespace {
 
-// A convex body of albedo .5 in a uniform environment without roulette: every sample is .5, and .25 or less if its ray
-// meets the body again. So one self-intersection among all samples shows.
+// A convex body of albedo .5 in a uniform environment without roulette: every sample is .5, and .25
+// or less if its ray meets the body again. So one self-intersection among all samples shows.
 void expect_half_everywhere(Scene scene, const Camera& camera, const std::string& what) {
     SCOPED_TRACE(what);
     scene.environment = constant_environment(1);
@@ -18,7 +18,9 @@ void expect_half_everywhere(Scene scene, const Camera& camera, const std::string
         const RenderResult result = render_scene(scene, settings);
         if (std::string(method) == "bsdf") {
             const std::vector<float>& pixels = result.film.image.channels.at("R");
-            EXPECT_EQ(std::ranges::count_if(pixels, [](float x) { return std::abs(x - 0.5F) > 1e-6F; }), 0);
+            EXPECT_EQ(
+                std::ranges::count_if(pixels, [](float x) { return std::abs(x - 0.5F) > 1e-6F; }),
+                0);
         } else {
             EXPECT_TRUE(has_mean(shared_mean(result), 0.5, {.bias = 0.02}));
         }
@@ -29,7 +31,12 @@ TEST(SelfIntersection, NoneOnConvexBodies) {
     const struct {
         double scale;
         Vec3d shift;
-    } cases[] = {{1, {0, 0, 0}}, {1, {1e3, 1e3, 1e3}}, {1e-4, {0, 0, 0}}, {1e4, {0, 0, 0}}, {1, {1e6, 0, 0}}};
+    } cases[] = {
+        {1, {0, 0, 0}},
+        {1, {1e3, 1e3, 1e3}},
+        {1e-4, {0, 0, 0}},
+        {1e4, {0, 0, 0}},
+        {1, {1e6, 0, 0}}};
     for (const auto& [scale, shift] : cases) {
         const std::string where = fmt::format("scale {}, shift {}", scale, shift[0]);
         Scene box = scene_named("box");
@@ -46,7 +53,8 @@ TEST(SelfIntersection, NoneOnConvexBodies) {
     }
 }
 
-// A body far off the centre of a scene a thousand times its size: its coordinates have the fewest digits.
+// A body far off the centre of a scene a thousand times its size: its coordinates have the fewest
+// digits.
 TEST(SelfIntersection, NoneOnASmallBodyInALargeScene) {
     Scene scene = scene_named("small body");
     add_icosphere(scene, lambert(grey(0.5F)), {999, 0, 0}, 1, 4);
@@ -54,7 +62,8 @@ TEST(SelfIntersection, NoneOnASmallBodyInALargeScene) {
     expect_half_everywhere(scene, orthographic({1002, 2, 2.5}, {999, 0, 0}, 1.3), "small body");
 }
 
-// A cube whose faces are fans of slivers, with triangles of no area and others that lie there twice.
+// A cube whose faces are fans of slivers, with triangles of no area and others that lie there
+// twice.
 TEST(SelfIntersection, NoneWithSliversAndDuplicates) {
     Scene scene = scene_named("slivers");
     std::vector<float> positions;
@@ -70,7 +79,8 @@ TEST(SelfIntersection, NoneWithSliversAndDuplicates) {
         };
         // strips of height 1e-6, 1e-5, ... across the face, each cut along its diagonal
         float low = -1;
-        for (const float high : {-1 + 1e-6F, -1 + 1e-5F, -1 + 1e-4F, 0.0F, 1e-5F, 1 - 1e-4F, 1.0F}) {
+        for (const float high :
+             {-1 + 1e-6F, -1 + 1e-5F, -1 + 1e-4F, 0.0F, 1e-5F, 1 - 1e-4F, 1.0F}) {
             const uint32_t a = point(-1, low);
             const uint32_t b = point(1, low);
             const uint32_t c = point(1, high);
@@ -88,12 +98,13 @@ TEST(SelfIntersection, NoneWithSliversAndDuplicates) {
     add_triangles(scene, lambert(grey(0.5F)), positions, indices);
     expect_half_everywhere(scene, orthographic({3, 2, 2.5}, {0, 0, 0}, 1.5), "slivers");
     scene.environment = constant_environment(1);
-    const RenderResult result = render_scene(scene, square_settings("bsdf", orthographic({3, 2, 2.5}, {0, 0, 0}, 1.5), 8, 1));
+    const RenderResult result = render_scene(
+        scene, square_settings("bsdf", orthographic({3, 2, 2.5}, {0, 0, 0}, 1.5), 8, 1));
     EXPECT_GE(result.dropped_triangles, 6U * 7 * 2);
 }
 
-// Two plates 4e-5 of their width apart: what lies between them sees the other plate and nothing else. 4e-5 is some forty
-// of the offsets with which rays leave a surface.
+// Two plates 4e-5 of their width apart: what lies between them sees the other plate and nothing
+// else. 4e-5 is some forty of the offsets with which rays leave a surface.
 TEST(ThinGap, LetsNoLightIn) {
     constexpr double gap = 4e-5;
     Scene scene = scene_named("thin gap");
@@ -104,7 +115,8 @@ TEST(ThinGap, LetsNoLightIn) {
     for (const char* method : {"bsdf", "direct"}) {
         SCOPED_TRACE(method);
         // the open rim is gap^2 / .16 = 1e-8 of the projected solid angle
-        EXPECT_LT(shared_mean(render_scene(scene, square_settings(method, camera, 64, 64))).mean, 1e-6);
+        EXPECT_LT(
+            shared_mean(render_scene(scene, square_settings(method, camera, 64, 64))).mean, 1e-6);
     }
 }
 
@@ -116,7 +128,8 @@ TEST(ThinGap, IsCrossed) {
     const Camera camera = close_up({0.1, 0.05, 0}, {0, 0, 1}, gap / 2, 0.1);
     for (const char* method : {"bsdf", "mis"}) {
         SCOPED_TRACE(method);
-        EXPECT_TRUE(has_mean(shared_mean(render_scene(scene, square_settings(method, camera, 64, 64))), 1));
+        EXPECT_TRUE(
+            has_mean(shared_mean(render_scene(scene, square_settings(method, camera, 64, 64))), 1));
     }
 }
 
