@@ -9,6 +9,7 @@
 // --cpu-time: compares processor time, for machines that others use at the same time.
 #include "bench/workloads.h"
 #include "device/device_array.h"
+#include "device/device_probe.h"
 #include "device/program.h"
 #include "scene/bvh_builder.h"
 #include "scene/embree.h"
@@ -261,6 +262,7 @@ void measure(
 
 int main(int argc, char** argv) {
     using namespace wavepath;
+    if (run_device_probe(argc, argv)) return 0;  // list_devices() starts this program as its child
     std::size_t pairs = 15;
     std::string config;
     for (int i = 1; i < argc; ++i) {
