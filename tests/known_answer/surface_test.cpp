@@ -63,7 +63,7 @@ TEST(VertexColours, MultiplyTheBaseColour) {
     plate.colors = {0.5F, 1, 0, 0.5F, 1, 0, 0.5F, 1, 1, 0.5F, 1, 1};
     scene.environment = constant_environment(1);
     const Camera camera = close_up({0.2, 0, 0}, {0, 0, 1}, 0.1, 1e-3);
-    const RenderResult result = render_scene(scene, square_settings("bsdf", camera, 64, 64));
+    const RenderResult result = render_scene(scene, square_settings("bsdf", camera, 64, 768));
     EXPECT_TRUE(has_mean(shared_mean(result, "R"), 0.4));
     EXPECT_TRUE(has_mean(shared_mean(result, "G"), 0.5));
     EXPECT_TRUE(has_mean(shared_mean(result, "B"), 0.5));
