@@ -26,8 +26,7 @@ kernel void assign_units(
     PLANE(ids, ID_PASS)[slot] = pass;
     PLANE(ids, ID_SAMPLE)[slot] = 0xFFFFFFFFu;  // generate_rays takes the next one, 0
     PLANE(ids, ID_LEFT)[slot] = plan[pass].samples;
-    PLANE(ids, ID_SEED)[slot] = hash_pair(hash_pair(params.seed, pixel), plan[pass].batch_start);
-    PLANE(ids, ID_INDEX)
-    [slot] = reverse_bits_32(plan[pass].first_sample - plan[pass].batch_start - 1);
+    PLANE(ids, ID_SEED)[slot] = hash_pair(params.seed, pixel);
+    PLANE(ids, ID_INDEX)[slot] = reverse_bits_32(plan[pass].first_sample - 1);
     for (int k = SUM_R; k < RADIANCE_PLANES; ++k) PLANE(radiances, k)[slot] = 0.0f;
 }

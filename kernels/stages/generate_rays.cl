@@ -46,9 +46,8 @@ kernel void generate_rays(
         pass = old_pass + params.pass_step + wrapped;
         left = plan[(int)pass].samples - 1;
         sample = 0;
-        const uint batch_start = plan[(int)pass].batch_start;
-        seed = hash_pair(hash_pair(params.seed, pixel), batch_start);
-        index = reverse_bits_32(plan[(int)pass].first_sample - batch_start);
+        seed = hash_pair(params.seed, pixel);
+        index = reverse_bits_32(plan[(int)pass].first_sample);
     }
     PLANE(ids, ID_CELL)[slot] = cell;
     PLANE(ids, ID_PIXEL)[slot] = pixel;

@@ -1,5 +1,7 @@
 #include "wavefront/queue_manager.h"
 
+#include "wavefront/sample_plan.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -49,7 +51,7 @@ QueueManager::QueueManager(
       profile_(profile),
       pool_(device, slots, features),
       params_(device, 1, "parameters"),
-      plan_(device, max_cells, "sample plan"),
+      plan_(device, std::min<uint64_t>(max_cells, SamplePlan::most_rows), "sample plan"),
       cells_(device, std::size_t{CELL_FLOATS} * max_cells, "units of work"),
       cell_flags_(device, max_cells, "units of work"),
       assign_units_(program, "assign_units", groups.streaming, profile),

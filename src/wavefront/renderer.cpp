@@ -119,7 +119,7 @@ class Schedule {
     std::vector<Window> next(double elapsed) {
         const double wanted = seconds_ > 0 ? std::clamp(seconds_ - elapsed, 0.0, 1.0) : 1.0;
         const double passes = rate_ > 0 ? wanted * rate_ : 1;
-        const uint64_t fit = std::max<uint64_t>(1, max_cells_ / pixels_);
+        const uint64_t fit = std::clamp<uint64_t>(max_cells_ / pixels_, 1, SamplePlan::most_rows);
         const std::vector<PlanRow> rows =
             plan_.take(std::min(fit, std::max(least_passes_, static_cast<uint64_t>(passes))));
         passes_ = rows.size();
@@ -178,13 +178,17 @@ RenderResult render(
     const cl::Program program = build_program(
         device, assemble_source(features.defines(), QueueManager::kernel_files(features)),
         &result.program);
-    warm_up(device, program, features, buffers, settings, params);
     Profile profile;
-    const uint32_t pool = settings.pool > 0 ? settings.pool : device.info.default_pool;
-    const uint64_t max_cells = std::max<uint64_t>(uint64_t{1} << 20U, uint64_t{4} * pool);
+    // no more slots and cells than there are units of work
+    const uint64_t units =
+        SamplePlan(settings.samples).most_passes() * settings.width * settings.height;
+    const uint32_t wanted = settings.pool > 0 ? settings.pool : device.info.default_pool;
+    const auto pool = static_cast<uint32_t>(std::min<uint64_t>(wanted, units));
+    const uint64_t max_cells = std::min(std::max(uint64_t{1} << 20U, uint64_t{4} * pool), units);
     QueueManager queues(
         device, program, features, buffers, pool, max_cells, settings.work_groups, profile);
     Film film(device, settings.width, settings.height);
+    warm_up(device, program, features, buffers, settings, params);
     result.times.program_build = watch.lap();
 
     Schedule schedule(settings, pool, max_cells);

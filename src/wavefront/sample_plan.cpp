@@ -1,6 +1,7 @@
 #include "wavefront/sample_plan.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace wavepath {
 
@@ -10,9 +11,15 @@ SamplePlan::SamplePlan(uint64_t samples)
           samples, std::clamp<uint64_t>(samples / least_batch, least_batches, most_batches)))) {}
 
 uint32_t SamplePlan::batch_size() const {
-    if (samples_ == 0) return least_batch;
+    if (samples_ == 0)  // open-ended: the longer the batches, the closer the bound
+        return std::max(least_batch, std::bit_floor(before_ / 8));
     return static_cast<uint32_t>(
         samples_ / batch_count_ + (batch_ < samples_ % batch_count_ ? 1 : 0));
+}
+
+uint64_t SamplePlan::most_passes() const {
+    const uint64_t passes = samples_ / pass_samples + batch_count_;
+    return samples_ == 0 ? most_rows : std::min<uint64_t>(most_rows, passes);
 }
 
 std::vector<PlanRow> SamplePlan::take(uint64_t count) {
