@@ -31,7 +31,7 @@ bool fits(const DeviceInfo& device, const std::string& selector) {
 std::string listing(const std::vector<DeviceInfo>& devices) {
     std::string text;
     for (const DeviceInfo& device : devices) {
-        text += "\n  " + device_label(device);
+        text += (text.empty() ? " " : "; ") + device_label(device);
         if (!device.unusable.empty()) text += " (not usable: " + device.unusable + ")";
     }
     return text;

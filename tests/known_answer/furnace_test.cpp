@@ -54,6 +54,27 @@ TEST(Furnace, StopsAtTheDepthAsked) {
     }
 }
 
+// Three directions from each of the first two vertices, a third of the throughput each.
+TEST(Furnace, SplitsChangeNoMean) {
+    for (const char* method : {"path", "mis"}) {
+        for (const TerminationKind kind : {TerminationKind::roulette, TerminationKind::depth}) {
+            RenderSettings settings = square_settings(method, inside, 64, 16);
+            settings.splits = 3;
+            settings.split_depth = 2;
+            settings.termination = {kind, 4, 1};
+            const RenderResult result = render_scene(furnace(), settings);
+            for (int c = 0; c < 2; ++c) {
+                const bool cut = kind == TerminationKind::depth;
+                SCOPED_TRACE(fmt::format("{}, albedo {}, cut {}", method, albedos[c], cut));
+                const double rho = albedos[c];
+                EXPECT_TRUE(has_mean(
+                    shared_mean(result, channels[c]),
+                    (1 - (cut ? std::pow(rho, 5) : 0)) / (1 - rho), {.tests = 8}));
+            }
+        }
+    }
+}
+
 // Survival r at every vertex: E X^2 = (1 + rho) / (1 - rho) / (1 - rho^2 / r). Asserted where r >
 // rho^(4/3), so that the fourth moment exists and the measured variance means something.
 TEST(Furnace, RouletteHasThePredictedVariance) {

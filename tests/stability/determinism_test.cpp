@@ -52,6 +52,17 @@ TEST(Determinism, OfTwoRunsPoolsAndWorkGroups) {
     expect_same_bits(first, render_scene(room(), settings));
 }
 
+TEST(Determinism, OfSplitsInTwoPools) {
+    RenderSettings settings = uneven();
+    settings.samples = 3;
+    settings.splits = 3;
+    settings.split_depth = 2;
+    const RenderResult first = render_scene(room(), settings);
+    settings.pool = 500;
+    settings.work_groups = {16, 64};
+    expect_same_bits(first, render_scene(room(), settings));
+}
+
 TEST(Determinism, OfTwoSeedsTheyDiffer) {
     RenderSettings settings = uneven();
     settings.seed = 2;

@@ -97,9 +97,22 @@ Estimate shared_mean(const RenderResult& result, const std::string& channel) {
     return estimate_of({pixels.begin(), pixels.end()});
 }
 
-Estimate image_mean(const RenderResult& result, const std::string& channel) {
-    const std::vector<float>& pixels = result.film.image.channels.at(channel);
-    const std::vector<float>& variances = result.film.image.channels.at("variance." + channel);
+namespace {
+
+// The pixels of block 0..63 of an 8 x 8 grid.
+std::vector<float> block_of(const Image& image, const std::string& channel, uint32_t block) {
+    const std::vector<float>& pixels = image.channels.at(channel);
+    const uint32_t width = image.width / 8;
+    const uint32_t height = image.height / 8;
+    std::vector<float> values;
+    for (uint32_t y = block / 8 * height; y < (block / 8 + 1) * height; ++y)
+        for (uint32_t x = block % 8 * width; x < (block % 8 + 1) * width; ++x)
+            values.push_back(pixels[y * image.width + x]);
+    return values;
+}
+
+Estimate mean_of(
+    const std::vector<float>& pixels, const std::vector<float>& variances, uint32_t batches) {
     const auto n = static_cast<double>(pixels.size());
     double sum = 0;
     double squares = 0;
@@ -111,22 +124,31 @@ Estimate image_mean(const RenderResult& result, const std::string& channel) {
     const double effective = squares > 0 ? sum * sum / squares : n;
     return {
         std::accumulate(pixels.begin(), pixels.end(), 0.0) / n, std::sqrt(sum) / n,
-        effective * (result.batches - 1)};
+        effective * (batches - 1)};
+}
+
+}  // namespace
+
+Estimate image_mean(const RenderResult& result, const std::string& channel) {
+    const auto& channels = result.film.image.channels;
+    return mean_of(channels.at(channel), channels.at("variance." + channel), result.batches);
+}
+
+std::vector<Estimate> block_image_means(const RenderResult& result, const std::string& channel) {
+    const Image& image = result.film.image;
+    std::vector<Estimate> blocks;
+    for (uint32_t block = 0; block < 64; ++block)
+        blocks.push_back(mean_of(
+            block_of(image, channel, block), block_of(image, "variance." + channel, block),
+            result.batches));
+    return blocks;
 }
 
 std::vector<Estimate> block_means(const RenderResult& result, const std::string& channel) {
-    const std::vector<float>& pixels = result.film.image.channels.at(channel);
-    const uint32_t width = result.film.image.width;
-    const uint32_t block_width = width / 8;
-    const uint32_t block_height = result.film.image.height / 8;
     std::vector<Estimate> blocks;
     for (uint32_t block = 0; block < 64; ++block) {
-        std::vector<double> values;
-        for (uint32_t y = 0; y < block_height; ++y)
-            for (uint32_t x = 0; x < block_width; ++x)
-                values.push_back(
-                    pixels[(block / 8 * block_height + y) * width + block % 8 * block_width + x]);
-        blocks.push_back(estimate_of(values));
+        const std::vector<float> pixels = block_of(result.film.image, channel, block);
+        blocks.push_back(estimate_of({pixels.begin(), pixels.end()}));
     }
     return blocks;
 }

@@ -50,8 +50,13 @@ Estimate estimate_of(const std::vector<double>& values);
 // Of an image whose pixels all have the same expected value: the error is the pixels' own scatter.
 Estimate shared_mean(const RenderResult& result, const std::string& channel = "R");
 
-// Of an image whose pixels differ: the error comes from the variance layer.
+// Of an image whose pixels differ: the error comes from the variance layer, which bounds it from
+// above.
 Estimate image_mean(const RenderResult& result, const std::string& channel = "R");
+
+// The same of its 8 x 8 blocks.
+std::vector<Estimate> block_image_means(
+    const RenderResult& result, const std::string& channel = "R");
 
 // Of the 8 x 8 blocks of an image whose pixels all have the same expected value.
 std::vector<Estimate> block_means(const RenderResult& result, const std::string& channel = "R");

@@ -1,0 +1,59 @@
+// The bundled scenes against another renderer: means of 8 x 8 blocks of 256 x 256 pixels with their
+// standard errors, from Mitsuba 3.9 (path, no depth cut, box filter), in reference/. Block (0, 0)
+// is the top left one.
+#include "scene/gltf_loader.h"
+#include "support/rendering.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace wavepath {
+namespace {
+
+const std::string source = WAVEPATH_SOURCE_DIR;
+
+nlohmann::json reference(const std::string& name) {
+    std::ifstream file(source + "/tests/known_answer/reference/" + name + ".json");
+    return nlohmann::json::parse(file);
+}
+
+void expect_same_picture(const Scene& scene, const std::string& name, uint64_t samples) {
+    const nlohmann::json truth = reference(name);
+    RenderSettings settings = square_settings("mis", scene.cameras.at(0), 256, samples);
+    const RenderResult result = render_scene(scene, settings);
+    const char* const channels[] = {"R", "G", "B"};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::vector<Estimate> blocks = block_image_means(result, channels[c]);
+        Estimate whole = {0, 0, truth["batches"].get<double>() - 1};
+        for (std::size_t block = 0; block < blocks.size(); ++block) {
+            SCOPED_TRACE(fmt::format("{}, block {}, {}", name, block, channels[c]));
+            const Estimate theirs = {
+                truth["mean"][block / 8][block % 8][c], truth["se"][block / 8][block % 8][c],
+                whole.degrees};
+            EXPECT_TRUE(agree(blocks[block], theirs, {.bias = 0.25, .tests = 192}));
+            whole.mean += theirs.mean / 64;
+            whole.error = std::hypot(whole.error, theirs.error / 64);
+        }
+        SCOPED_TRACE(fmt::format("{}, all of {}", name, channels[c]));
+        EXPECT_TRUE(agree(image_mean(result, channels[c]), whole, {.bias = 0.01, .tests = 3}));
+    }
+}
+
+TEST(Reference, CornellBox) {
+    expect_same_picture(load_gltf(source + "/scenes/cornell_box/scene.gltf"), "cornell_box", 32);
+}
+
+TEST(Reference, BoxLight) {
+    expect_same_picture(load_gltf(source + "/scenes/box_light/scene.gltf"), "box_light", 64);
+}
+
+TEST(Reference, Terrain) {
+    Scene scene = load_gltf(WAVEPATH_TERRAIN);
+    scene.environment = constant_environment(1);
+    scene.environment->radiance = {1.0F, 1.1F, 1.3F};
+    expect_same_picture(scene, "terrain", 16);
+}
+
+}  // namespace
+}  // namespace wavepath
