@@ -1,12 +1,10 @@
 // Eight triangles against one ray, watertight [Woop 2013].
 //
 // Each vertex is moved to the ray's origin and sheared so that the ray becomes the z axis; the
-// origin is then inside the projected triangle where the three edge functions agree in sign. A
-// shared edge is seen from its two triangles with its ends exchanged: the same two products,
-// rounded alike, subtracted the other way round, so the two values are exact negatives (mul, mul,
-// sub; an fma would break this). Rounding is monotonic, so fl(a) - fl(b) never has the wrong sign
-// of a - b, it can only be zero; zero counts as inside for both. Hence no ray slips between two
-// triangles, and the paper's fallback to double, which asks for the exact sign, is not needed.
+// origin is then inside the projected triangle where the three edge functions agree in sign. Zero
+// counts as inside, and no edge function has the wrong sign (difference_of_products), from
+// whichever of its two triangles a shared edge is seen. Hence no ray slips between two triangles,
+// and the paper's fallback to double, which asks for the exact sign, is not needed.
 #pragma once
 
 #include "shared/bvh.h"
@@ -41,6 +39,17 @@ INLINE ShearedRay shear_ray(
     return ray;
 }
 
+// a b - c d within 1.5 ulp [Jeannerod 2013]. A difference of rounded products is off by an ulp of
+// the products, which in a sliver is much of what is left: its distance was off by up to 2^-24
+// length^2 / height, which exceeds RAY_OFFSET, and rays that left a sliver met it again. The sign
+// is never wrong, whatever underflows: rounding is monotonic, so the two fma compare as a b and c d
+// do, or equal.
+INLINE float8
+difference_of_products(const float8 a, const float8 b, const float8 c, const float8 d) {
+    const float8 rounded = c * d;
+    return fma(a, b, -rounded) - fma(c, d, -rounded);
+}
+
 // Lanes hit with 0 < t <= t_max (-1), and where: distances, barycentrics of corners 1 and 2.
 INLINE int8 intersect_block(
     global const TriangleBlock* block,
@@ -61,9 +70,10 @@ INLINE int8 intersect_block(
     const float8 by = fma(bz, (float8)(ray->sy), vload8(0, b + ray->ky) - ray->oy);
     const float8 cx = fma(cz, (float8)(ray->sx), vload8(0, c + ray->kx) - ray->ox);
     const float8 cy = fma(cz, (float8)(ray->sy), vload8(0, c + ray->ky) - ray->oy);
-    const float8 edge_a = cx * by - cy * bx;  // of the edge opposite corner 0
-    const float8 edge_b = ax * cy - ay * cx;
-    const float8 edge_c = bx * ay - by * ax;
+    // of the edges opposite corners 0, 1, 2
+    const float8 edge_a = difference_of_products(cx, by, cy, bx);
+    const float8 edge_b = difference_of_products(ax, cy, ay, cx);
+    const float8 edge_c = difference_of_products(bx, ay, by, ax);
     const float8 lowest = min(edge_a, min(edge_b, edge_c));
     const float8 highest = max(edge_a, max(edge_b, edge_c));
     const float8 det = edge_a + edge_b + edge_c;  // where the signs agree, 0 only if all three are

@@ -134,6 +134,50 @@ TEST(Bvh, WatertightFromInside) {
     }
 }
 
+// A ray from 2^-20 off a triangle, where paths start, away from it: it goes through a triangle
+// whose corners are moved by the rounding of the shear, a fifth of this, so it may never meet its
+// own.
+std::vector<TestRay> leaving_rays(const TestMesh& mesh, std::size_t count, std::mt19937& random) {
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::normal_distribution<float> gauss;
+    std::vector<TestRay> rays(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float* p = &mesh.positions[9 * (i % mesh.size())];
+        const double u = std::sqrt(uniform(random));
+        const double v = u * uniform(random);
+        std::array<double, 3> e{};
+        std::array<double, 3> f{};
+        std::array<double, 3> n{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            e[k] = static_cast<double>(p[3 + k]) - static_cast<double>(p[k]);
+            f[k] = static_cast<double>(p[6 + k]) - static_cast<double>(p[k]);
+        }
+        double cosine = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            n[k] = e[(k + 1) % 3] * f[(k + 2) % 3] - e[(k + 2) % 3] * f[(k + 1) % 3];
+            rays[i].direction[k] = gauss(random);
+            cosine += n[k] * static_cast<double>(rays[i].direction[k]);
+        }
+        const double offset = std::copysign(0x1p-20 / std::hypot(n[0], n[1], n[2]), cosine);
+        for (std::size_t k = 0; k < 3; ++k)
+            rays[i].origin[k] = static_cast<float>(
+                static_cast<double>(p[k]) + (u - v) * e[k] + v * f[k] + offset * n[k]);
+        rays[i].t_max = std::numeric_limits<float>::infinity();
+    }
+    return rays;
+}
+
+TEST(Bvh, NoRayThatLeavesASliverMeetsIt) {
+    const TestMesh mesh = slivers_mesh(200);
+    const Bvh bvh = build_bvh(mesh.positions);
+    in_batches("WAVEPATH_HIT_RAYS", 1, [&](std::size_t count, std::mt19937& random) {
+        const std::vector<TestRay> rays = leaving_rays(mesh, count, random);
+        const std::vector<TestHit> hits = closest(bvh, rays);
+        for (std::size_t i = 0; i < count; ++i)
+            ASSERT_NE(hits[i].primitive, static_cast<int>(i % mesh.size())) << text_of(rays[i]);
+    });
+}
+
 // Where triangles coincide the lowest id is hit, and another order of the triangles, which makes
 // another tree, changes no distance.
 TEST(Bvh, OrderOfTheTreeDecidesNothing) {

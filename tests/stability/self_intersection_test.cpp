@@ -64,7 +64,7 @@ TEST(SelfIntersection, NoneOnASmallBodyInALargeScene) {
 
 // A cube whose faces are fans of slivers, with triangles of no area and others that lie there
 // twice.
-TEST(SelfIntersection, DISABLED_NoneWithSliversAndDuplicates) {
+TEST(SelfIntersection, NoneWithSliversAndDuplicates) {
     Scene scene = scene_named("slivers");
     std::vector<float> positions;
     std::vector<uint32_t> indices;

@@ -118,6 +118,26 @@ TestMesh rods_mesh(unsigned rods) {
     return mesh;
 }
 
+TestMesh slivers_mesh(std::size_t triangles) {
+    TestMesh mesh{"slivers", {}, false};
+    std::mt19937 random(13);
+    std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const Point from{uniform(random), uniform(random), uniform(random)};
+        const Point to{uniform(random), uniform(random), uniform(random)};
+        const double height = std::pow(10.0, -3.5 + 5 * uniform(random));
+        // a needle, whose third corner is near its first, or a cap, where it is between the others
+        const double along = i % 2 == 0 ? 0 : uniform(random) + 0.5;
+        Point third{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double straight = from[axis] + along * (to[axis] - from[axis]);
+            third[axis] = (1 - height) * straight + height * uniform(random);
+        }
+        add_triangle(mesh, from, to, third);
+    }
+    return mesh;
+}
+
 TestMesh repeated_mesh(const TestMesh& mesh, unsigned copies) {
     TestMesh repeated{"repeated " + mesh.name, {}, mesh.closed};
     for (unsigned i = 0; i < copies; ++i)

@@ -22,6 +22,7 @@ TestMesh room_mesh();                                    // a box with two boxes
 TestMesh height_field_mesh(unsigned cells);              // cells * cells * 2 triangles
 TestMesh soup_mesh(std::size_t triangles);               // of all sizes, through one another
 TestMesh rods_mesh(unsigned rods);                       // long, thin, in all directions
+TestMesh slivers_mesh(std::size_t triangles);            // up to 1 long, down to 1e-6 high
 
 // Every triangle `copies` times: the lowest id of a copy is its index in `mesh`.
 TestMesh repeated_mesh(const TestMesh& mesh, unsigned copies);
