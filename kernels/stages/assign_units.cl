@@ -1,5 +1,9 @@
 // Starts a window: gives every slot its first unit of work, one before its first sample.
-// reads: plan    writes: hits, ids, sums
+//
+// reads: plan
+//
+// writes: hits, ids, sums
+//
 // One work-item a slot in use.
 
 #include "sampling/sobol.cl"

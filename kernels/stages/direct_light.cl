@@ -1,6 +1,10 @@
-// Chooses a point on a light for every path at a surface and leaves the connection to `occlusion`
-// (notes 5, directRadianceEstimator, with the f_r that the notes leave out).
-// reads: rays, hits, surfaces, throughputs, ids, scene, lights    writes: shadows
+// Chooses a point on a light for every path at a surface and leaves the connection to
+// `occlusion` (notes 5, directRadianceEstimator, with the f_r that the notes leave out).
+//
+// reads: rays, hits, surfaces, throughputs, ids, scene, lights
+//
+// writes: shadows
+//
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
@@ -79,15 +83,17 @@ kernel void direct_light(
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
     value = mul3(value, gltf_eval(surface, wo, wi));
     if (WEIGH_BOTH) {
-        const float weight = power_heuristic(s.pdf_w, gltf_pdf_w(surface, wo, wi));
+        // a sky below the horizon has no density and no radiance either
+        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), gltf_pdf_w(surface, wo, wi));
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
+    // NaN passes every test, to be found and counted.
     // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay
     // scalar on PoCL.
     float t_max = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    t_max *= dot3(ng, s.wi) > 0.0f ? 1.0f : 0.0f;
-    t_max *= wi.z > 0.0f ? 1.0f : 0.0f;
-    t_max *= max_component3(value) > 0.0f ? 1.0f : 0.0f;
+    t_max *= dot3(ng, s.wi) <= 0.0f ? 0.0f : 1.0f;
+    t_max *= wi.z <= 0.0f ? 0.0f : 1.0f;
+    t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
     const Vec3 origin = leave(p, ng);
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, sub3(s.p, origin));

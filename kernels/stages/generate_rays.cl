@@ -1,5 +1,10 @@
 // Starts the next sample of every slot whose path is over: of its unit, or of the unit one pool
-// further on. reads: plan    writes: hits (a slot without work), ids, rays, throughputs, radiances
+// further on.
+//
+// reads: plan
+//
+// writes: hits (a slot without work), ids, rays, throughputs, radiances
+//
 // One work-item a slot.
 
 #include "sampling/dimensions.cl"

@@ -92,8 +92,8 @@ void run(const RenderOptions& options, const Outputs& outputs) {
         else
             write_png(result.film.image, path, outputs.exposure);
         spdlog::info(
-            "wrote {}: {} samples a pixel in {:.2f} s, relative error {:.3g}", path.string(),
-            result.samples, result.times.render, result.film.relative_error);
+            "wrote {}: {} samples a pixel in {:.2f} s, relative error {}", path.string(),
+            result.samples, result.times.render, relative_error_text(result.film.relative_error));
     }
     if (!outputs.json.empty())
         AtomicFile(outputs.json).commit(render_report(device, job, result).dump(2) + "\n");
