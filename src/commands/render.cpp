@@ -13,6 +13,8 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <memory>
 
@@ -34,6 +36,10 @@ void check_outputs(const Outputs& outputs) {
         check_writable(path);
     }
     if (!outputs.json.empty()) check_writable(outputs.json);
+    if (std::ranges::find(outputs.images, outputs.json) != outputs.images.end())
+        throw Error("{}: is both a picture and the report; name two files", outputs.json.string());
+    if (!(std::abs(outputs.exposure) <= 100))
+        throw Error("--exposure {}: use stops between -100 and 100", outputs.exposure);
 }
 
 std::map<std::string, std::string> metadata(
