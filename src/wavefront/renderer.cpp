@@ -195,6 +195,7 @@ RenderResult render(
             "{} MiB of device memory needed, {} MiB there; use a smaller --size or --pool, or "
             "another --device",
             needed >> 20U, device.info.global_memory >> 20U);
+    // last, so that no buffer takes the place of one it freed: oclgrind mixes them up
     warm_up(device, program, features, buffers, settings, params);
     result.times.program_build = watch.lap();
 
