@@ -84,7 +84,7 @@ std::vector<std::string> ignored_extensions(const tinygltf::Model& model) {
 Scene load_gltf(const std::filesystem::path& path) {
     const GltfFile file = read_gltf_file(path);
     Scene scene;
-    scene.name = path.stem().string();
+    scene.name = path.string();
     scene.materials = read_materials(file);
 
     Ignored ignored;
