@@ -1,5 +1,9 @@
 #include "scene/gltf_file.h"
 
+#include "scene/gltf_draco.h"
+#include "scene/gltf_meshopt.h"
+#include "scene/gltf_placeholders.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -16,9 +20,18 @@ namespace {
 namespace fs = std::filesystem;
 
 // Sorted.
-constexpr std::array<std::string_view, 5> supported_extensions{
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_mesh_quantization"};
+constexpr auto supported_extensions = std::to_array<std::string_view>({
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_variants",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+});
 
 // Magic, version, length; length and type of the JSON chunk.
 constexpr std::size_t glb_header_size = 20;
@@ -106,6 +119,21 @@ void forgive_skins(std::string& error) {
         error.erase(at, complaint.size());
 }
 
+// The file with other JSON.
+std::vector<unsigned char> with_json(std::span<const unsigned char> bytes, std::string_view json) {
+    if (!is_binary(bytes)) return {json.begin(), json.end()};
+    const auto chunks = bytes.subspan(glb_header_size + word_at(bytes, 12));
+    std::vector<unsigned char> file(bytes.begin(), bytes.begin() + glb_header_size);
+    file.insert(file.end(), json.begin(), json.end());
+    file.resize((file.size() + 3) / 4 * 4, ' ');  // header and chunks are multiples of 4
+    const auto json_size = static_cast<std::uint32_t>(file.size() - glb_header_size);
+    file.insert(file.end(), chunks.begin(), chunks.end());
+    const auto size = static_cast<std::uint32_t>(file.size());
+    std::memcpy(&file[8], &size, sizeof size);
+    std::memcpy(&file[12], &json_size, sizeof json_size);
+    return file;
+}
+
 // What tinygltf holds against the file, also where it claims success; empty: nothing.
 std::string parse(
     std::span<const unsigned char> bytes, const fs::path& folder, tinygltf::Model& model) {
@@ -172,7 +200,7 @@ void check_required_extensions(const GltfFile& file) {
 
 GltfFile read_gltf_file(const fs::path& path) {
     constexpr int max_nesting = 256;
-    const std::vector<unsigned char> bytes = read_bytes(path);
+    std::vector<unsigned char> bytes = read_bytes(path);
     GltfFile file{path.filename().string(), {}};
     if (bytes.size() > std::numeric_limits<unsigned int>::max())
         throw Error(
@@ -184,6 +212,8 @@ GltfFile read_gltf_file(const fs::path& path) {
         throw Error(
             "{}: JSON is nested deeper than {} levels; export again", file.name, max_nesting);
 
+    if (const auto json = with_placeholders(json_text(bytes), is_binary(bytes)))
+        bytes = with_json(bytes, *json);
     const std::string error = parse(bytes, fs::absolute(path).parent_path(), file.model);
     // Version and extensions are known even after a failure, and often its reason: they go first.
     check_version(file);
@@ -191,6 +221,8 @@ GltfFile read_gltf_file(const fs::path& path) {
     if (!error.empty())
         throw Error(
             "{}: not valid glTF: {}; repair the file or export again", file.name, one_line(error));
+    decode_meshopt(file);
+    decode_draco(file);
     return file;
 }
 
@@ -231,6 +263,19 @@ double number(
     const tinygltf::Value& value = object.Get(key);
     if (!value.IsNumber()) file.fail(where, "{} is not a number; repair it or export again", key);
     return value.GetNumberAsDouble();
+}
+
+int integer(
+    const GltfFile& file,
+    std::string_view where,
+    const tinygltf::Value& object,
+    const char* key,
+    std::optional<int> missing) {
+    if (!object.Has(key) && missing) return *missing;
+    const tinygltf::Value& value = object.Get(key);
+    if (!value.IsInt() || value.Get<int>() < 0)
+        file.fail(where, "{} is no integer from 0 on; repair it or export again", key);
+    return value.Get<int>();
 }
 
 std::vector<double> numbers(
