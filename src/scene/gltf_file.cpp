@@ -63,8 +63,13 @@ std::uint32_t word_at(std::span<const unsigned char> bytes, std::size_t offset) 
 void check_glb_header(std::span<const unsigned char> bytes, const std::string& name) {
     if (bytes.size() >= 8 && word_at(bytes, 4) != 2)
         throw Error("{}: is binary glTF version {}; export as glTF 2.0", name, word_at(bytes, 4));
-    if (bytes.size() < glb_header_size || bytes.size() < word_at(bytes, 8) ||
-        bytes.size() - glb_header_size < word_at(bytes, 12))
+    bool is_whole = bytes.size() >= glb_header_size && bytes.size() >= word_at(bytes, 8) &&
+                    bytes.size() - glb_header_size >= word_at(bytes, 12);
+    // chunks: length, type, data
+    for (std::size_t at = 12; is_whole && at + 8 <= word_at(bytes, 8);
+         at += 8 + std::size_t{word_at(bytes, at)})
+        is_whole = word_at(bytes, at) <= word_at(bytes, 8) - at - 8;
+    if (!is_whole)
         throw Error("{}: is cut short or gives a wrong length; copy or export it again", name);
 }
 

@@ -11,8 +11,7 @@ namespace {
 
 constexpr const char* extension_name = "EXT_mesh_gpu_instancing";
 
-// Rows of one number of attributes that share their length, each with a value of its own where the
-// file has none.
+// The attributes of a node's instances: as many rows of each.
 class InstanceAttributes {
   public:
     InstanceAttributes(

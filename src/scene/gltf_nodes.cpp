@@ -145,7 +145,8 @@ int scene_named(const GltfFile& file, const std::string& selector) {
         return static_cast<int>(index);
     throw Error(
         "--scene {}: {} has {} scene(s){}{}; name one of them by index or name", selector,
-        file.name, scenes.size(), names.empty() ? "" : ": ", fmt::join(names, ", "));
+        file.name, scenes.size(), names.empty() ? "" : ": ",
+        one_line(fmt::format("{}", fmt::join(names, ", "))));
 }
 
 }  // namespace
