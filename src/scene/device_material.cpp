@@ -14,7 +14,7 @@ float dielectric_f0(const Material& material, std::size_t channel) {
 
 }  // namespace
 
-DeviceMaterial device_material(const Material& material) {
+DeviceMaterial device_material(const Material& material, uint32_t medium) {
     DeviceMaterial d{};
     d.base_r = material.base_color[0];
     d.base_g = material.base_color[1];
@@ -29,11 +29,15 @@ DeviceMaterial device_material(const Material& material) {
     d.emission_b = material.emission[2];
     d.alpha = material.roughness * material.roughness;
     d.double_sided = material.double_sided ? 1 : 0;
+    d.boundary =
+        material.boundary == Boundary::index_matched ? BOUNDARY_INDEX_MATCHED : BOUNDARY_OPAQUE;
+    d.medium = medium;
     return d;
 }
 
 bool reflects_specularly(const Material& material) {
-    return material.metallic > 0 || material.specular > 0;
+    return material.boundary == Boundary::opaque &&
+           (material.metallic > 0 || material.specular > 0);
 }
 
 }  // namespace wavepath

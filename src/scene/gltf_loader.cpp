@@ -27,7 +27,8 @@ class MeshInstancer {
         // A scale of 0 is how files hide a mesh.
         if (flattens_triangles(placed.to_world)) return;
         for (std::uint32_t primitive = first; primitive < last; ++primitive)
-            scene_.instances.push_back({primitive, placed.to_world});
+            scene_.instances.push_back({primitive, placed.to_world, bodies_});
+        ++bodies_;
     }
 
   private:
@@ -46,6 +47,7 @@ class MeshInstancer {
     Scene& scene_;
     Ignored& ignored_;
     std::map<int, Range> read_;
+    std::uint32_t bodies_ = 0;
 };
 
 void note_ignored_features(const tinygltf::Model& model, Ignored& ignored) {
@@ -85,9 +87,8 @@ Scene load_gltf(const std::filesystem::path& path) {
     const GltfFile file = read_gltf_file(path);
     Scene scene;
     scene.name = path.stem().string();
-    scene.materials = read_materials(file);
-
     Ignored ignored;
+    scene.materials = read_materials(file, ignored);
     note_ignored_features(file.model, ignored);
     MeshInstancer meshes(file, scene, ignored);
     for (const PlacedNode& placed : place_nodes(file)) {

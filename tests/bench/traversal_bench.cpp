@@ -41,7 +41,7 @@ kernel void closest(
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
-        hits[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+        hits[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
         return;
     }
     const uint end = min(count, i + RAYS_PER_ITEM);
@@ -50,7 +50,7 @@ kernel void closest(
     do {
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
         }
         stream_step(&stream, nodes, blocks, 0);
         for (int k = 0; k < stream.ended; ++k) hits[stream_ended(&stream, k)->item] = stream_ended(&stream, k)->hit;
@@ -73,7 +73,7 @@ kernel void blocked(
     do {
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
         }
         stream_step(&stream, nodes, blocks, 1);
         for (int k = 0; k < stream.ended; ++k)
