@@ -29,7 +29,8 @@ enum HitPlane {
 #define HIT_IDLE (-3)   // the slot has no work left
 // with HAS_MEDIA:
 #define HIT_MEDIUM (-4)  // it stopped in a medium before the surface; HIT_T and SURFACE_X say where
-#define HIT_BOUNDARY (-5)  // it passes an index-matched boundary and goes on as the same ray
+#define HIT_BOUNDARY (-5)    // it passes an index-matched boundary and goes on as the same ray
+#define HIT_DIELECTRIC (-6)  // it leaves a smooth dielectric boundary as a new ray
 
 // surfaces: what was hit, where HIT_PRIMITIVE >= 0
 enum SurfacePlane {

@@ -29,6 +29,7 @@ SHARED_SIZE(DeviceMaterial, 64);
 // What a material does to light that meets it.
 #define BOUNDARY_OPAQUE 0u
 #define BOUNDARY_INDEX_MATCHED 1u  // passes straight, tinted by the base colour
+#define BOUNDARY_DIELECTRIC 2u     // reflects and refracts by Fresnel's equations
 
 // A homogeneous medium; lengths are those of the normalised scene.
 typedef struct {
@@ -39,11 +40,11 @@ typedef struct {
     shared_float sigma_t_g;
     shared_float sigma_s_g;
     shared_float emission_g;
-    shared_float padding;
+    shared_float ior;  // [1] refractive index; 1 within an index-matched boundary
     shared_float sigma_t_b;
     shared_float sigma_s_b;
     shared_float emission_b;
-    shared_float padding2;
+    shared_float padding;
 } DeviceMedium;
 SHARED_SIZE(DeviceMedium, 48);
 

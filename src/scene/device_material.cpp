@@ -12,6 +12,18 @@ float dielectric_f0(const Material& material, std::size_t channel) {
     return std::min(ratio * ratio * material.specular_color[channel], 1.0F);
 }
 
+cl_uint device_boundary(Boundary boundary) {
+    switch (boundary) {
+        case Boundary::opaque:
+            return BOUNDARY_OPAQUE;
+        case Boundary::index_matched:
+            return BOUNDARY_INDEX_MATCHED;
+        case Boundary::dielectric:
+            return BOUNDARY_DIELECTRIC;
+    }
+    return BOUNDARY_OPAQUE;
+}
+
 }  // namespace
 
 DeviceMaterial device_material(const Material& material, uint32_t medium) {
@@ -29,8 +41,7 @@ DeviceMaterial device_material(const Material& material, uint32_t medium) {
     d.emission_b = material.emission[2];
     d.alpha = material.roughness * material.roughness;
     d.double_sided = material.double_sided ? 1 : 0;
-    d.boundary =
-        material.boundary == Boundary::index_matched ? BOUNDARY_INDEX_MATCHED : BOUNDARY_OPAQUE;
+    d.boundary = device_boundary(material.boundary);
     d.medium = medium;
     return d;
 }

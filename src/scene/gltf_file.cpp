@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // Sorted.
-constexpr std::array<std::string_view, 7> supported_extensions{
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_volume",
-    "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 9> supported_extensions{
+    "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_scatter", "KHR_materials_specular",          "KHR_materials_transmission",
+    "KHR_materials_volume",  "KHR_materials_volume_scatter",    "KHR_mesh_quantization"};
 
 // Magic, version, length; length and type of the JSON chunk.
 constexpr std::size_t glb_header_size = 20;

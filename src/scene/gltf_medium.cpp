@@ -12,6 +12,21 @@ constexpr const char* extras_key = "wavepath_medium";
 // Henyey-Greenstein beyond this is a delta in single precision.
 constexpr double largest_anisotropy = 0.99999;
 
+// The single-scattering albedo under which a half-space of this anisotropy has the multi-scatter
+// albedo `rho`: 1 - s^2 with s the bracket of KHR_materials_volume_scatter for g = 0, and
+// (1 - s^2) / (1 - g s^2) of KHR_materials_scatter. The fit leaves 6e-6 at rho = 0, where nothing
+// scatters.
+double single_albedo(double rho, double g) {
+    const double s =
+        4.09712 + 4.20863 * rho - std::sqrt(9.59217 + 41.6808 * rho + 17.7126 * rho * rho);
+    return rho > 0 ? std::clamp((1 - s * s) / (1 - g * s * s), 0.0, 1.0) : 0.0;
+}
+
+// Mirrors begin at the same alpha (kernels/materials/ggx.cl, MIRROR_ALPHA).
+bool is_smooth(const Material& material) {
+    return material.roughness * material.roughness < 1e-3F;
+}
+
 class MediumReader {
   public:
     MediumReader(const GltfFile& file, int index)
@@ -60,7 +75,41 @@ class MediumReader {
             const double kept = std::max(color[c], 1e-37);
             medium.sigma_a[c] = static_cast<float>(-std::log(kept) / distance);
         }
+        if (const auto* newer = find_extension(source_.extensions, "KHR_materials_scatter"))
+            scatter(
+                medium, *newer, number(file_, where_, *newer, "scatterStrengthFactor", 0),
+                {1, 1, 1}, true);
+        else if (
+            const auto* older = find_extension(source_.extensions, "KHR_materials_volume_scatter"))
+            scatter(medium, *older, 1, {0, 0, 0}, false);
         return medium;
+    }
+
+    // What attenuates also scatters: sigma_t stays, and its share of the single-scattering albedo
+    // is sigma_s. The drafts' multi-scatter albedo has had two names.
+    void scatter(
+        Medium& medium,
+        const tinygltf::Value& extension,
+        double strength,
+        const std::vector<double>& missing,
+        bool albedo_knows_anisotropy) const {
+        const char* key =
+            extension.Has("multiscatterColor") ? "multiscatterColor" : "multiscatterColorFactor";
+        const std::vector<double> color = numbers(file_, where_, extension, key, missing);
+        if (color.size() != 3) fail("{} has {} numbers instead of 3; repair it", key, color.size());
+        const double g = number(file_, where_, extension, "scatterAnisotropy", 0);
+        if (!(std::abs(g) <= largest_anisotropy))
+            fail("scatterAnisotropy is {}, not between -1 and 1; repair it", g);
+        medium.anisotropy = static_cast<float>(g);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double rho = strength * color[c];
+            if (!(rho >= 0 && rho <= 1))
+                fail("{} times the scatter strength is {}, not in 0 .. 1; repair it", key, rho);
+            const double share = single_albedo(rho, albedo_knows_anisotropy ? g : 0);
+            const double sigma_t = medium.sigma_a[c];
+            medium.sigma_s[c] = static_cast<float>(share * sigma_t);
+            medium.sigma_a[c] = static_cast<float>((1 - share) * sigma_t);
+        }
     }
 
     Medium from_extras() const {
@@ -118,12 +167,14 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
         ignored.add("thin transmitting materials", "rendered opaque");
     else if (transmission < 1 || material.metallic > 0)
         ignored.add("volumes that transmit in part", "rendered opaque");
-    else if (material.ior != 1)
-        ignored.add("volumes that refract (ior not 1)", "rendered opaque");
-    else if (material.emits())
+    else if (material.ior != 1 && !is_smooth(material))
+        ignored.add("volumes that refract and are rough", "rendered opaque");
+    else if (material.ior < 1)
+        ignored.add("volumes that refract with ior 0", "rendered opaque");
+    else if (material.ior == 1 && material.emits())
         reader.fail("is a boundary with ior 1 and emits; take emissiveFactor or the volume away");
     else {
-        material.boundary = Boundary::index_matched;
+        material.boundary = material.ior == 1 ? Boundary::index_matched : Boundary::dielectric;
         material.medium = reader.read();
     }
 }

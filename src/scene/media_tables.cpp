@@ -107,7 +107,8 @@ std::vector<Body> bodies_with_media(const Scene& scene, const NormalisedScene& g
     return found;
 }
 
-DeviceMedium device_medium(const Medium& medium, double metres) {
+DeviceMedium device_medium(const Material& material, double metres) {
+    const Medium& medium = material.medium;
     const auto scaled = [&](float per_metre) { return static_cast<float>(per_metre * metres); };
     DeviceMedium d{};
     d.sigma_s_r = scaled(medium.sigma_s[0]);
@@ -120,6 +121,7 @@ DeviceMedium device_medium(const Medium& medium, double metres) {
     d.emission_g = scaled(medium.emission[1]);
     d.emission_b = scaled(medium.emission[2]);
     d.anisotropy = medium.anisotropy;
+    d.ior = material.boundary == Boundary::dielectric ? material.ior : 1;
     return d;
 }
 
@@ -159,8 +161,10 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
     for (const Body& body : bodies) {
         for (const uint32_t m : body.boundaries) {
             if (tables.rows[m] > 0) continue;
-            const Medium& medium = scene.materials[m].medium;
-            tables.media.push_back(device_medium(medium, geometry.extent.metres));
+            const Material& material = scene.materials[m];
+            const Medium& medium = material.medium;
+            tables.media.push_back(device_medium(material, geometry.extent.metres));
+            tables.refract = tables.refract || material.boundary == Boundary::dielectric;
             tables.rows[m] = static_cast<uint32_t>(tables.media.size());
             tables.scatter = tables.scatter || medium.scatters();
             tables.emit = tables.emit || medium.emits();

@@ -16,6 +16,7 @@ struct MediaTables {
     std::vector<uint32_t> rows;         // one a material: its row + 1, 0: encloses nothing
     bool scatter = false;               // some medium does
     bool emit = false;                  // some medium does
+    bool refract = false;               // some boundary does
     std::vector<std::string> warnings;  // about bodies that enclose a medium badly
 };
 

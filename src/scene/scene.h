@@ -19,7 +19,8 @@ inline constexpr Matrix4 identity_matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 
 // What a surface does to light that meets it.
 enum class Boundary {
     opaque,
-    index_matched  // passes straight, tinted by the base colour: nothing is reflected or refracted
+    index_matched,  // passes straight, tinted by the base colour: nothing is reflected or refracted
+    dielectric  // smooth: reflects and refracts by Fresnel's equations, tints what it lets through
 };
 
 // A homogeneous medium, per metre of world space.

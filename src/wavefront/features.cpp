@@ -51,6 +51,7 @@ Features features_of(
     f.environment_map = f.environment && scene.environment->width > 0;
     f.media = !media.media.empty();
     f.media_scatter = media.scatter;
+    f.dielectrics = media.refract;
     f.phase_directions = method.phase_directions;
     f.split_levels = split_levels;
     f.sample_lights = method.sample_lights && !lights.lights.empty();

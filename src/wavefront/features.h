@@ -21,6 +21,7 @@ struct Features {
     bool environment_map = false;
     bool media = false;
     bool media_scatter = false;
+    bool dielectrics = false;  // smooth boundaries that refract
     bool phase_directions = true;
     uint32_t split_levels = 0;  // vertices that branch
     bool sample_lights = false;

@@ -31,6 +31,7 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
         names.insert(
             names.end(), {"direct_light", features.media ? "connect_through_media" : "occlusion"});
     if (features.media) names.insert(names.end(), {"sample_distance", "pass_boundary"});
+    if (features.dielectrics) names.emplace_back("refract_boundary");
     if (features.media_scatter) names.emplace_back("scatter_medium");
     names.insert(
         names.end(),
@@ -71,6 +72,8 @@ QueueManager::QueueManager(
           features.environment, program, "shade_miss", groups.streaming, profile)),
       shade_emission_(stage_if<decltype(shade_emission_)::value_type>(
           features.area_lights, program, "shade_emission", groups.streaming, profile)),
+      refract_boundary_(stage_if<decltype(refract_boundary_)::value_type>(
+          features.dielectrics, program, "refract_boundary", groups.streaming, profile)),
       direct_light_(stage_if<decltype(direct_light_)::value_type>(
           features.sample_lights, program, "direct_light", groups.streaming, profile)),
       occlusion_(stage_if<decltype(occlusion_)::value_type>(
@@ -134,6 +137,10 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
             shade_emission_->launch(
                 device_, slots, params_, slots, scene_.materials, scene_.lights, pool_.rays,
                 pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
+        if (refract_boundary_)
+            refract_boundary_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,
+                pool_.surfaces, pool_.rays, pool_.media, pool_.hits, pool_.throughputs, pool_.ids);
         if (direct_light_)
             direct_light_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,

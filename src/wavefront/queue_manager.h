@@ -118,6 +118,19 @@ class QueueManager {
         cl_uint,
         Floats,
         Materials,
+        Media,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Uints>>
+        refract_boundary_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Materials,
         Lights,
         Map,
         Media,

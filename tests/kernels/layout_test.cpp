@@ -32,9 +32,9 @@ namespace {
     FIELD(DeviceMedium, sigma_t_r) FIELD(DeviceMedium, sigma_s_r)                                 \
     FIELD(DeviceMedium, emission_r) FIELD(DeviceMedium, anisotropy)                               \
     FIELD(DeviceMedium, sigma_t_g) FIELD(DeviceMedium, sigma_s_g)                                 \
-    FIELD(DeviceMedium, emission_g) FIELD(DeviceMedium, padding)                                  \
+    FIELD(DeviceMedium, emission_g) FIELD(DeviceMedium, ior)                                      \
     FIELD(DeviceMedium, sigma_t_b) FIELD(DeviceMedium, sigma_s_b)                                 \
-    FIELD(DeviceMedium, emission_b) FIELD(DeviceMedium, padding2)                                 \
+    FIELD(DeviceMedium, emission_b) FIELD(DeviceMedium, padding)                                  \
     STRUCT(DeviceLight)                                                                           \
     FIELD(DeviceLight, alias_threshold) FIELD(DeviceLight, alias) FIELD(DeviceLight, pmf)         \
     FIELD(DeviceLight, kind) FIELD(DeviceLight, primitive) FIELD(DeviceLight, area)               \

@@ -69,6 +69,40 @@ TEST(GltfMedium, ReadsAttenuation) {
     EXPECT_THAT(load(file_with(material)).materials[0].medium.sigma_a, ElementsAre(1, 1, 1));
 }
 
+// Single-scattering albedos of multi-scatter albedos .1, .5, .9: by either draft.
+TEST(GltfMedium, ReadsScatterDrafts) {
+    const auto albedos = [](const std::string& extension, const Json& scatter) {
+        Json material = boundary();
+        material["extensions"]["KHR_materials_volume"]["attenuationColor"] = {0.5, 0.5, 0.5};
+        material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 2;
+        material["extensions"][extension] = scatter;
+        const Medium medium = load(file_with(material)).materials[0].medium;
+        std::array<double, 3> albedo{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double sigma_t = medium.sigma_a[c] + medium.sigma_s[c];
+            EXPECT_NEAR(sigma_t, std::log(2) / 2, 1e-6);
+            albedo[c] = medium.sigma_s[c] / sigma_t;
+        }
+        return albedo;
+    };
+    const auto near = [](double a, double b, double c) {
+        return ElementsAre(
+            testing::DoubleNear(a, 2e-6), testing::DoubleNear(b, 2e-6),
+            testing::DoubleNear(c, 2e-6));
+    };
+    for (const char* key : {"multiscatterColorFactor", "multiscatterColor"})
+        EXPECT_THAT(
+            albedos("KHR_materials_volume_scatter", {{key, {0.1, 0.5, 0.9}}}),
+            near(.384240, .911709, .997907));
+    EXPECT_THAT(
+        albedos(
+            "KHR_materials_scatter", {{"scatterStrengthFactor", 1},
+                                      {"multiscatterColorFactor", {0.1, 0.5, 0.9}},
+                                      {"scatterAnisotropy", 0.5}}),
+        near(.555164, .953816, .998952));
+    EXPECT_THAT(albedos("KHR_materials_scatter", Json::object()), near(0, 0, 0));
+}
+
 TEST(GltfMedium, SaysWhatStaysOpaque) {
     struct Case {
         const char* path;
@@ -79,7 +113,8 @@ TEST(GltfMedium, SaysWhatStaysOpaque) {
         {"/extensions/KHR_materials_volume/thicknessFactor", 0, "thin transmitting materials (1)"},
         {"/extensions/KHR_materials_transmission/transmissionFactor", 0.5, "transmit in part (1)"},
         {"/pbrMetallicRoughness/metallicFactor", 1, "transmit in part (1)"},
-        {"/extensions/KHR_materials_ior/ior", 1.33, "refract (ior not 1) (1)"},
+        {"/extensions/KHR_materials_ior/ior", 1.33, "refract and are rough (1)"},
+        {"/extensions/KHR_materials_ior/ior", 0, "refract and are rough (1)"},
     };
     for (const Case& c : cases) {
         Json material = boundary();
@@ -88,6 +123,16 @@ TEST(GltfMedium, SaysWhatStaysOpaque) {
         EXPECT_EQ(scene.materials[0].boundary, Boundary::opaque) << c.path;
         EXPECT_THAT(scene.ignored, ElementsAre(HasSubstr(c.line))) << c.path;
     }
+}
+
+TEST(GltfMedium, ReadsSmoothDielectrics) {
+    Json material = boundary();
+    material["extensions"]["KHR_materials_ior"]["ior"] = 1.33;
+    material["pbrMetallicRoughness"]["roughnessFactor"] = 0;
+    const Scene scene = load(file_with(material));
+    EXPECT_EQ(scene.materials[0].boundary, Boundary::dielectric);
+    EXPECT_EQ(scene.materials[0].ior, 1.33F);
+    EXPECT_THAT(scene.ignored, IsEmpty());
 }
 
 TEST(GltfMedium, RefusesWhatMeansNothing) {
