@@ -20,10 +20,10 @@
 
 // What the host reads after every iteration, one a chunk.
 typedef struct {
-    shared_uint active;        // slots with work,
-    shared_uint resumed;       // of which these need no ray
-    shared_uint runaway_slot;  // of a path that passed MAX_SCATTERINGS, + 1; 0: none
-    shared_uint padding;
+    shared_uint active;          // slots with work,
+    shared_uint resumed;         // of which these need no ray
+    shared_uint runaway_pixel;   // of a path that passed MAX_SCATTERINGS, + 1; 0: none
+    shared_uint runaway_sample;  // and its sample
 } ChunkState;
 SHARED_SIZE(ChunkState, 16);
 

@@ -9,7 +9,6 @@
 
 kernel void move_paths(
     constant const RenderParams* restrict settings,
-    const uint count,
     global const uint* restrict holes,
     global const uint* restrict movers,
     global float* restrict rays,
@@ -22,8 +21,8 @@ kernel void move_paths(
     const RenderParams params = *settings;
     const size_t stride = params.stride;
     const uint i = (uint)get_global_id(0);
-    if (i >= count) return;
-    const uint from = movers[i];
+    if (i >= movers[0]) return;
+    const uint from = movers[i + 1];
     const uint to = holes[i];
     for (int k = 0; k < RAY_PLANES; ++k) PLANE(rays, k)[to] = PLANE(rays, k)[from];
     for (int k = 0; k < HIT_PLANES; ++k) PLANE(hits, k)[to] = PLANE(hits, k)[from];

@@ -2,6 +2,7 @@
 // connections. reads: fates, ids    writes: chunks, statistics (a row each chunk) One work-item a
 // chunk.
 
+#include "sampling/sobol.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
 #include "shared/path.h"
@@ -23,7 +24,8 @@ kernel void scan_queue(
     uint active = 0;
     uint resumed = 0;
     uint connections = 0;
-    uint runaway_slot = 0;
+    uint runaway_pixel = 0;
+    uint runaway_sample = 0;
     for (uint slot = first; slot < last; ++slot) {
         const uint fate = fates[slot];
         active += fate & FATE_ACTIVE;
@@ -32,10 +34,14 @@ kernel void scan_queue(
         if (!(fate & FATE_ENDED)) continue;
         const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
         row[min(scattering, DEPTH_BINS - 1u)] += 1;
-        if (scattering >= MAX_SCATTERINGS) runaway_slot = slot + 1;
+        if (scattering >= MAX_SCATTERINGS) {
+            runaway_pixel = PLANE(ids, ID_PIXEL)[slot] + 1;
+            runaway_sample = reverse_bits_32(PLANE(ids, ID_INDEX)[slot]);
+        }
     }
     row[DEPTH_BINS] += connections;
     chunks[chunk].active = active;
     chunks[chunk].resumed = resumed;
-    chunks[chunk].runaway_slot = runaway_slot;
+    chunks[chunk].runaway_pixel = runaway_pixel;
+    chunks[chunk].runaway_sample = runaway_sample;
 }

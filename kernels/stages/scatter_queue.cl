@@ -21,7 +21,7 @@ kernel void scatter_queue(
     if (first >= slots) return;
     const uint last = min(first + QUEUE_CHUNK, slots);
     const int below = first < kept;
-    uint at = 0;
+    uint at = below ? 0 : 1;  // movers[0] counts them
     for (uint c = below ? 0 : kept / QUEUE_CHUNK; c < chunk; ++c)
         at += below ? QUEUE_CHUNK - chunks[c].active : chunks[c].active;
     global uint* list = below ? holes : movers;
@@ -29,4 +29,5 @@ kernel void scatter_queue(
         const int idle = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE;
         if (idle == below) list[at++] = slot;
     }
+    if (last == slots) movers[0] = below ? 0 : at - 1;
 }

@@ -34,7 +34,7 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
       fates(device, slots, "path pool"),
       chunk_states(device, chunks(), "path pool"),
       holes(device, slots, "path pool"),
-      movers(device, slots, "path pool"),
+      movers(device, std::size_t{slots} + 1, "path pool"),
       statistics(
           device, std::vector<cl_uint>(std::size_t{STATISTICS} * chunks(), 0), "statistics") {}
 

@@ -3,7 +3,6 @@
 #include "wavefront/sample_plan.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace wavepath {
 
@@ -49,6 +48,7 @@ QueueManager::QueueManager(
     uint32_t slots,
     uint64_t max_cells,
     WorkGroups groups,
+    uint32_t count_lag,
     Profile& profile)
     : device_(device),
       features_(features),
@@ -59,6 +59,7 @@ QueueManager::QueueManager(
       plan_(device, std::min<uint64_t>(max_cells, SamplePlan::most_rows), "sample plan"),
       cells_(device, std::size_t{CELL_FLOATS} * max_cells, "units of work"),
       cell_flags_(device, max_cells, "units of work"),
+      count_lag_(count_lag),
       assign_units_(program, "assign_units", groups.streaming, profile),
       generate_rays_(program, "generate_rays", groups.streaming, profile),
       intersect_(program, "intersect", features.rays_per_item > 1 ? 1 : groups.traversal, profile),
@@ -105,6 +106,7 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
     uint32_t slots =
         std::min(pool_.slots, static_cast<uint32_t>(window.pixels * window.rows.size()));
     Work work{slots, 0};
+    closest_rays_ += slots;
     assign_units_.launch(
         device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.radiances);
     while (work.active > 0) {
@@ -171,14 +173,14 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
         accumulate_.launch(
             device_, slots, params_, slots, pool_.hits, pool_.radiances, pool_.ids, cells_,
             cell_flags_);
-        closest_rays_ += work.active - work.resumed;
-        work = count_work(slots, window);
+        work = count_work(slots, work);
         ++iterations_;
     }
     fold_film_.launch(
         device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
     device_.queue.finish();
     profile_.collect();
+    counts_.clear();
 }
 
 void QueueManager::start(const Window& window, RenderParams params) {
@@ -195,57 +197,55 @@ void QueueManager::start(const Window& window, RenderParams params) {
 }
 
 void QueueManager::load_compaction() {
-    const cl_uint none = 0;
+    const cl_uint slots = 1;
+    const cl_uint kept = QUEUE_CHUNK;  // nothing lies above and moves
     scatter_queue_.launch(
-        device_, 1, params_, none, none, pool_.hits, pool_.chunk_states, pool_.holes, pool_.movers);
+        device_, 1, params_, slots, kept, pool_.hits, pool_.chunk_states, pool_.holes,
+        pool_.movers);
     move_paths_.launch(
-        device_, 1, params_, none, pool_.holes, pool_.movers, pool_.rays, pool_.hits,
-        pool_.throughputs, pool_.radiances, pool_.ids, pool_.media, pool_.branches);
+        device_, 1, params_, pool_.holes, pool_.movers, pool_.rays, pool_.hits, pool_.throughputs,
+        pool_.radiances, pool_.ids, pool_.media, pool_.branches);
     device_.queue.finish();
 }
 
-QueueManager::Work QueueManager::count_work(uint32_t slots, const Window& window) {
-    chunk_states_.resize((slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK);
+QueueManager::Work QueueManager::count_work(uint32_t slots, const Work& before) {
+    const uint32_t chunks = (slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK;
     scan_queue_.launch(
-        device_, chunk_states_.size(), params_, slots, pool_.fates, pool_.ids, pool_.chunk_states,
+        device_, chunks, params_, slots, pool_.fates, pool_.ids, pool_.chunk_states,
         pool_.statistics);
+    Count& count = counts_.emplace_back();
+    count.chunks.resize(chunks);
     device_.queue.enqueueReadBuffer(
-        pool_.chunk_states.buffer(), CL_TRUE, 0, chunk_states_.size() * sizeof(ChunkState),
-        chunk_states_.data());
-    profile_.collect();
+        pool_.chunk_states.buffer(), CL_FALSE, 0, chunks * sizeof(ChunkState), count.chunks.data(),
+        nullptr, &count.arrival);
+    device_.queue.flush();
+    if (counts_.size() <= count_lag_) return before;
+    counts_.front().arrival.wait();
     Work work;
-    for (const ChunkState& chunk : chunk_states_) {
+    for (const ChunkState& chunk : counts_.front().chunks) {
         work.active += chunk.active;
         work.resumed += chunk.resumed;
-        if (chunk.runaway_slot != 0) report_runaway(chunk.runaway_slot - 1, window);
+        if (chunk.runaway_pixel != 0)
+            throw Error(
+                "pixel {}, sample {}: the path is still alive after {} scatterings: nothing in "
+                "the scene absorbs it; lower an albedo, or use --termination depth:D (biased)",
+                chunk.runaway_pixel - 1, chunk.runaway_sample, MAX_SCATTERINGS);
     }
+    counts_.pop_front();
+    closest_rays_ += work.active - work.resumed;
     return work;
 }
 
 uint32_t QueueManager::compact(uint32_t slots, uint32_t active) {
     const uint32_t kept = (active + QUEUE_CHUNK - 1) / QUEUE_CHUNK * QUEUE_CHUNK;
     if (kept >= slots) return slots;
-    uint32_t movers = 0;
-    for (std::size_t chunk = kept / QUEUE_CHUNK; chunk < chunk_states_.size(); ++chunk)
-        movers += chunk_states_[chunk].active;
     scatter_queue_.launch(
-        device_, chunk_states_.size(), params_, slots, kept, pool_.hits, pool_.chunk_states,
-        pool_.holes, pool_.movers);
+        device_, (slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK, params_, slots, kept, pool_.hits,
+        pool_.chunk_states, pool_.holes, pool_.movers);
     move_paths_.launch(
-        device_, movers, params_, movers, pool_.holes, pool_.movers, pool_.rays, pool_.hits,
-        pool_.throughputs, pool_.radiances, pool_.ids, pool_.media, pool_.branches);
+        device_, std::min(active, slots - kept), params_, pool_.holes, pool_.movers, pool_.rays,
+        pool_.hits, pool_.throughputs, pool_.radiances, pool_.ids, pool_.media, pool_.branches);
     return kept;
-}
-
-void QueueManager::report_runaway(uint32_t slot, const Window& window) const {
-    const std::vector<cl_uint> ids = pool_.ids.read(device_);
-    const auto id = [&](IdPlane plane) { return ids[std::size_t{plane} * pool_.stride + slot]; };
-    const PlanRow& row = window.rows[id(ID_PASS)];
-    throw Error(
-        "pixel {}, sample {}: the path is still alive after {} scatterings: nothing in the scene "
-        "absorbs it; "
-        "lower an albedo, or use --termination depth:D (biased)",
-        id(ID_PIXEL), row.first_sample + id(ID_SAMPLE), MAX_SCATTERINGS);
 }
 
 RayCounts QueueManager::ray_counts() const {

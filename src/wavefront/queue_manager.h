@@ -9,6 +9,7 @@
 #include "wavefront/path_pool.h"
 #include "wavefront/stage.h"
 
+#include <deque>
 #include <optional>
 
 namespace wavepath {
@@ -34,7 +35,9 @@ struct RayCounts {
 
 class QueueManager {
   public:
-    // `max_cells`: the most units of work of one window.
+    // `max_cells`: the most units of work of one window. `count_lag`: iterations by which the host
+    // learns late how many slots have work. 0: launches are exact, and the device waits for the
+    // host; 1: it never waits, and idle slots return at their guards.
     QueueManager(
         const Device& device,
         const cl::Program& program,
@@ -43,6 +46,7 @@ class QueueManager {
         uint32_t slots,
         uint64_t max_cells,
         WorkGroups work_groups,
+        uint32_t count_lag,
         Profile& profile);
 
     // The kernel files of the chain that these features need.
@@ -81,11 +85,17 @@ class QueueManager {
         uint32_t resumed = 0;  // of which these need no ray
     };
 
-    // Reads back what scan_queue counted.
-    Work count_work(uint32_t slots, const Window& window);
-    // Moves the live paths of `slots` slots together; returns how many slots they take.
+    // What scan_queue counted, on its way to the host.
+    struct Count {
+        std::vector<ChunkState> chunks;
+        cl::Event arrival;
+    };
+
+    // The work as scan_queue finds it, `count_lag` iterations late: then what it was, a bound.
+    Work count_work(uint32_t slots, const Work& before);
+    // Moves the live paths, at most `active`, of `slots` slots together; returns how many slots
+    // they take.
     uint32_t compact(uint32_t slots, uint32_t active);
-    [[noreturn]] void report_runaway(uint32_t slot, const Window& window) const;
 
     const Device& device_;
     const Features features_;
@@ -96,7 +106,8 @@ class QueueManager {
     Plan plan_;
     Floats cells_;
     Uints cell_flags_;
-    std::vector<ChunkState> chunk_states_;
+    uint32_t count_lag_;
+    std::deque<Count> counts_;
     uint64_t iterations_ = 0;
     uint64_t closest_rays_ = 0;
 
@@ -165,8 +176,7 @@ class QueueManager {
         resume_branch_;
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
-    Stage<Params, cl_uint, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats, Floats>
-        move_paths_;
+    Stage<Params, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats, Floats> move_paths_;
     Stage<Params, cl_uint, Floats, Floats, Uints, Floats, Uints> accumulate_;
     Stage<Params, Plan, Floats, Uints, Floats, Uints> fold_film_;
 };

@@ -96,7 +96,7 @@ void warm_up(
     params.max_scatterings = 1;
     Profile profile;
     QueueManager queues(
-        device, program, features, buffers, QUEUE_CHUNK, 1, settings.work_groups, profile);
+        device, program, features, buffers, QUEUE_CHUNK, 1, settings.work_groups, 0, profile);
     Film film(device, 1, 1);
     const Window window{0, 1, {PlanRow{0, 1, 0, 1}}};
     queues.render(window, params, film);
@@ -193,7 +193,8 @@ RenderResult render(
     const auto pool = static_cast<uint32_t>(std::min<uint64_t>(wanted, units));
     const uint64_t max_cells = std::min(std::max(uint64_t{1} << 20U, uint64_t{4} * pool), units);
     QueueManager queues(
-        device, program, features, buffers, pool, max_cells, settings.work_groups, profile);
+        device, program, features, buffers, pool, max_cells, settings.work_groups,
+        settings.count_lag.value_or(device.info.is_cpu ? 0 : 1), profile);
     Film film(device, settings.width, settings.height);
     warm_up(device, program, features, buffers, settings, params);
     result.times.program_build = watch.lap();

@@ -28,6 +28,7 @@ struct RenderSettings {
     bool sobol = true;
     uint32_t pool = 0;  // path slots; 0: the device's default
     WorkGroups work_groups;
+    std::optional<uint32_t> count_lag;  // QueueManager's; none: 0 on a CPU, 1 elsewhere
 };
 
 struct RenderTimes {

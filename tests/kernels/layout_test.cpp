@@ -68,8 +68,8 @@ namespace {
     FIELD(PlanRow, first_sample) FIELD(PlanRow, samples) FIELD(PlanRow, batch_start)              \
     FIELD(PlanRow, closes_batch)                                                                  \
     STRUCT(ChunkState)                                                                            \
-    FIELD(ChunkState, active) FIELD(ChunkState, resumed) FIELD(ChunkState, runaway_slot)          \
-    FIELD(ChunkState, padding)
+    FIELD(ChunkState, active) FIELD(ChunkState, resumed) FIELD(ChunkState, runaway_pixel)          \
+    FIELD(ChunkState, runaway_sample)
 // clang-format on
 
 // A row of the table as one side sees it: where a field begins, or a struct ends.

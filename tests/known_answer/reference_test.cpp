@@ -41,7 +41,7 @@ void expect_same_picture(const Scene& scene, const std::string& name, uint64_t s
 }
 
 TEST(Reference, CornellBox) {
-    expect_same_picture(load_gltf(source + "/scenes/cornell_box/scene.gltf"), "cornell_box", 32);
+    expect_same_picture(load_gltf(source + "/scenes/cornell_box/scene.gltf"), "cornell_box", 64);
 }
 
 TEST(Reference, BoxLight) {

@@ -52,6 +52,26 @@ TEST(Determinism, OfTwoRunsPoolsAndWorkGroups) {
     expect_same_bits(first, render_scene(room(), settings));
 }
 
+// As on a GPU: launches are bounds, and compaction works from old counts.
+TEST(Determinism, OfCountsThatComeLate) {
+    for (const uint32_t splits : {1U, 3U}) {
+        RenderSettings settings = uneven();
+        settings.samples = 4;
+        settings.splits = splits;
+        settings.pool = 1000;
+        const RenderResult exact = render_scene(room(), settings);
+        for (const uint32_t lag : {1U, 2U}) {
+            SCOPED_TRACE(fmt::format("{} splits, counts {} iterations late", splits, lag));
+            settings.count_lag = lag;
+            const RenderResult late = render_scene(room(), settings);
+            expect_same_bits(exact, late);
+            EXPECT_EQ(exact.rays.closest, late.rays.closest);
+            EXPECT_EQ(exact.rays.connections, late.rays.connections);
+            EXPECT_EQ(exact.rays.path_lengths, late.rays.path_lengths);
+        }
+    }
+}
+
 TEST(Determinism, OfSplitsInTwoPools) {
     RenderSettings settings = uneven();
     settings.samples = 3;
