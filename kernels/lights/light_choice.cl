@@ -12,7 +12,8 @@ INLINE uint choice_entry(const uint bits, const uint count) {
 }
 
 INLINE uint choice_rest(const uint bits, const uint count) {
-    return bits * count;
+    // the hash fills the gaps of the lattice that the product lies on
+    return bits * count + mul_hi(hash_uint(bits), count);
 }
 
 INLINE uint choose_light(global const DeviceLight* lights, const uint count, const uint bits) {

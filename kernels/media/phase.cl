@@ -3,8 +3,8 @@
 // g the mean cosine between the directions of travel. Both forms below are free of the
 // cancellations at g -> 0 and |g| -> 1: with a = |g| and d = 1 - cos (g < 0: 1 + cos),
 //     1 + g^2 - 2 g cos = (1 - a)^2 + 2 a d,
-// and the inverse of the cumulative density is d = 2 (1 - a)^2 (1 - u)(1 + a u) / (1 - a + 2 a
-// u)^2.
+// and the inverse of the cumulative density is
+//     d = 2 (1 - a)^2 (1 - u)(1 + a u) / (1 - a + 2 a u)^2.
 #pragma once
 
 #include "sampling/warp.cl"

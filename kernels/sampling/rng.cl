@@ -1,4 +1,4 @@
-// Randomness without state: a hash of (seed, pixel, batch, sample, dimension).
+// Randomness without state: a hash of (seed, pixel, sample, dimension).
 #pragma once
 
 #include "shared/inline.h"

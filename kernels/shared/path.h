@@ -121,8 +121,8 @@ enum IdPlane {
     ID_PASS,        // row of the sample plan, counted from the first of the window
     ID_SAMPLE,      // of the unit
     ID_LEFT,        // samples of the unit after this one
-    ID_SEED,        // hash of (seed, pixel, batch)
-    ID_INDEX,       // of the sample within its batch, bits reversed
+    ID_SEED,        // hash of (seed, pixel)
+    ID_INDEX,       // of the sample in the pixel's sequence, bits reversed
     ID_SCATTERING,  // scatterings so far
     ID_NONFINITE,   // of the unit: count << 16 | first such sample + 1
     ID_BRANCH,  // which child of its branch vertices this is (only with --splits, as are the next)

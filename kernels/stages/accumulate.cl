@@ -1,5 +1,9 @@
 // Adds every finished sample to its unit's sum, and hands the sum over when the unit is done.
-// reads: hits    writes: radiances, ids, cells, cell_flags
+//
+// reads: hits, throughputs
+//
+// writes: radiances, ids, cells, cell_flags
+//
 // One work-item a slot. A cell belongs to one unit, so it has one writer.
 
 #include "sampling/vector.cl"
@@ -15,6 +19,7 @@ kernel void accumulate(
     constant const RenderParams* restrict settings,
     const uint slots,
     global const float* restrict hits,
+    global const float* restrict throughputs,
     global float* restrict radiances,
     global uint* restrict ids,
     global float* restrict cells,
@@ -24,7 +29,10 @@ kernel void accumulate(
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
-    const Vec3 radiance = load3(PLANE(radiances, RADIANCE_R), stride, slot);
+    // A throughput that is no number spoils the sample, whether or not it met a light.
+    const Vec3 radiance = madd3(
+        load3(PLANE(radiances, RADIANCE_R), stride, slot),
+        load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), 0.0f);
     const uint sample = PLANE(ids, ID_SAMPLE)[slot];
     const int first = sample == 0;
     const Vec3 before = load3(PLANE(radiances, SUM_R), stride, slot);

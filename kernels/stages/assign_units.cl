@@ -1,5 +1,9 @@
 // Starts a window: gives every slot its first unit of work, one before its first sample.
-// reads: plan    writes: hits, ids, sums
+//
+// reads: plan
+//
+// writes: hits, ids, sums
+//
 // One work-item a slot in use.
 
 #include "sampling/sobol.cl"
@@ -28,5 +32,6 @@ kernel void assign_units(
     PLANE(ids, ID_LEFT)[slot] = plan[pass].samples;
     PLANE(ids, ID_SEED)[slot] = hash_pair(params.seed, pixel);
     PLANE(ids, ID_INDEX)[slot] = reverse_bits_32(plan[pass].first_sample - 1);
+    PLANE(ids, ID_NONFINITE)[slot] = 0;
     for (int k = SUM_R; k < RADIANCE_PLANES; ++k) PLANE(radiances, k)[slot] = 0.0f;
 }

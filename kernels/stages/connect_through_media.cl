@@ -1,7 +1,11 @@
 // Traces the pending connections of a scene with media and adds what arrives: instead of
 // `occlusion`, which knows no boundaries. One ray meets the index-matched boundaries one after the
 // other and ends at its light: nothing is pushed off a boundary, so no lamp below one is missed.
-// reads: shadows, media, scene    writes: radiances, fates
+//
+// reads: shadows, media, scene
+//
+// writes: radiances, fates
+//
 // One work-item a slot.
 
 #include "geometry/bvh.cl"

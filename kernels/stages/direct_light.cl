@@ -1,7 +1,11 @@
 // Chooses a point on a light for every path at a surface, or at a stop in a medium, and leaves the
 // connection to `occlusion` or `connect_through_media` (notes 5, directRadianceEstimator, with the
 // f_r that the notes leave out; notes 6).
-// reads: rays, hits, surfaces, throughputs, ids, media, scene, lights    writes: shadows
+//
+// reads: rays, hits, surfaces, throughputs, ids, media, scene, lights
+//
+// writes: shadows
+//
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
@@ -92,15 +96,17 @@ kernel void direct_light(
     value = mul3(value, select3(in_medium, vec3(phase, phase, phase), gltf_eval(surface, wo, wi)));
     if (WEIGH_BOTH) {
         const float pdf_w = in_medium ? phase_pdf_w(phase) : gltf_pdf_w(surface, wo, wi);
-        const float weight = power_heuristic(s.pdf_w, pdf_w);
+        // a sky below the horizon has no density and no radiance either
+        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), pdf_w);
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
+    // NaN passes every test, to be found and counted.
     // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay
     // scalar on PoCL.
     float t_max = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    t_max *= in_medium || dot3(ng, s.wi) > 0.0f ? 1.0f : 0.0f;
-    t_max *= in_medium || wi.z > 0.0f ? 1.0f : 0.0f;
-    t_max *= max_component3(value) > 0.0f ? 1.0f : 0.0f;
+    t_max *= in_medium || !(dot3(ng, s.wi) <= 0.0f) ? 1.0f : 0.0f;
+    t_max *= in_medium || !(wi.z <= 0.0f) ? 1.0f : 0.0f;
+    t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
     const Vec3 origin = select3(in_medium, p, leave(p, ng));
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, sub3(s.p, origin));

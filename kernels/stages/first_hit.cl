@@ -1,5 +1,9 @@
 // Records what the camera saw first: albedo, shading normal, distance.
-// reads: hits, surfaces, ids    writes: sums
+//
+// reads: hits, surfaces, ids
+//
+// writes: sums
+//
 // One work-item a slot.
 
 #include "geometry/interaction.cl"

@@ -1,8 +1,13 @@
-// Folds the cells of a window into the film, pixel by pixel, in the order of the passes, so that
-// the bytes of the film depend neither on the pool nor on how the passes were divided into windows.
-// Compensated sums [Kahan 1965]: 10^7 samples of a constant stay right to 1e-7. The variance
-// between batches is updated by Welford's recurrence, weighted [West 1979]. reads: plan, cells,
-// cell_flags    writes: film, film_flags One work-item a pixel of the window.
+// Folds the cells of a window into the film, pixel by pixel, in the order of the passes, so
+// that the bytes of the film depend neither on the pool nor on how the passes were divided into
+// windows. Compensated sums [Kahan 1965]: 10^7 samples of a constant stay right to 1e-7. The
+// variance between batches is updated by Welford's recurrence, weighted [West 1979].
+//
+// reads: plan, cells, cell_flags
+//
+// writes: film, film_flags
+//
+// One work-item a pixel of the window.
 
 #include "sampling/vector.cl"
 #include "shared/film.h"
@@ -32,7 +37,7 @@ kernel void fold_film(
     const RenderParams params = *settings;
     const uint i = (uint)get_global_id(0);
     if (i >= params.window_pixels) return;
-    const uint pixels = params.width * params.height;
+    const size_t pixels = (size_t)params.width * params.height;
     const uint pixel = params.first_pixel + i;
     const uint passes = params.cells / params.window_pixels;
 

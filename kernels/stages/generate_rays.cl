@@ -1,6 +1,11 @@
 // Starts the next sample of every slot whose path is over: of its unit, or of the unit one pool
-// further on. reads: plan    writes: hits (a slot without work), ids, rays, throughputs, radiances,
-// media One work-item a slot.
+// further on.
+//
+// reads: plan
+//
+// writes: hits (a slot without work), ids, rays, throughputs, radiances, media
+//
+// One work-item a slot.
 
 #include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"

@@ -1,5 +1,9 @@
 // Looks up what each ray hit: position, normals, base colour, material, light.
-// reads: rays, hits, scene    writes: surfaces
+//
+// reads: rays, hits, scene
+//
+// writes: surfaces
+//
 // One work-item a slot.
 
 #include "geometry/interaction.cl"

@@ -1,5 +1,9 @@
 // Finds the closest triangle along every ray.
-// reads: rays, media, bvh    writes: hits
+//
+// reads: rays, media, bvh
+//
+// writes: hits
+//
 // One work-item for RAYS_PER_ITEM slots.
 
 #include "geometry/ray_stream.cl"

@@ -1,5 +1,9 @@
 // Moves paths into idle slots, plane by plane.
-// reads: holes, movers    writes: rays, hits, throughputs, radiances, ids, media, branches
+//
+// reads: holes, movers
+//
+// writes: rays, hits, throughputs, radiances, ids, media, branches
+//
 // One work-item a path; no slot is read and written in one launch.
 
 #include "sampling/vector.cl"

@@ -1,5 +1,9 @@
 // Traces the pending connections and adds what arrives.
-// reads: shadows, bvh    writes: radiances, fates
+//
+// reads: shadows, bvh
+//
+// writes: radiances, fates
+//
 // One work-item for RAYS_PER_ITEM slots.
 
 #include "geometry/ray_stream.cl"

@@ -1,6 +1,11 @@
 // Lets paths through index-matched boundaries: the ray goes on as it is, behind the boundary,
-// tinted by its base colour, in the medium that begins or ends there. That is no scattering. reads:
-// rays, surfaces, scene    writes: media, hits (the pass), throughputs One work-item a slot.
+// tinted by its base colour, in the medium that begins or ends there. That is no scattering.
+//
+// reads: rays, surfaces, scene
+//
+// writes: media, hits (the pass), throughputs
+//
+// One work-item a slot.
 
 #include "media/medium_stack.cl"
 #include "shared/params.h"

@@ -1,7 +1,11 @@
 // Continues every path at a smooth dielectric boundary: reflected with the chance that Fresnel's
 // equations give, else refracted into the medium that begins or ends there. A path that crosses
 // carries (n_i / n_t)^2 of the radiance behind [Veach 1997, section 5.2].
-// reads: rays, surfaces, ids, scene, media    writes: rays, media, hits, throughputs, ids
+//
+// reads: rays, surfaces, ids, scene, media
+//
+// writes: rays, media, hits, throughputs, ids
+//
 // One work-item a slot.
 
 #include "materials/dielectric.cl"
@@ -66,8 +70,8 @@ kernel void refract_boundary(
         mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), select3(reflects, one, passed));
     const Vec3 side = scale3(ng, reflects ? 1.0f : -1.0f);
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    goes_on *= dot3(side, wi) > 0.0f ? 1.0f : 0.0f;
-    goes_on *= max_component3(throughput) <= 0.0f ? 0.0f : 1.0f;  // NaN goes on, to be found
+    goes_on *= dot3(side, wi) <= 0.0f ? 0.0f : 1.0f;
+    goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN
     const int continues = goes_on > 0.0f;
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? HIT_DIELECTRIC : HIT_ENDED);
     store3(

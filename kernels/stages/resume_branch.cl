@@ -1,7 +1,12 @@
-// Takes paths that ended back to their last branch vertex with children to run (notes 2, N > 1: S
-// directions from a point). Children run one after the other in their parent's slot, so a slot
-// stays one path. reads: branches    writes: hits, rays, throughputs, ids, branches (children
-// left), fates One work-item a slot.
+// Takes paths that ended back to their last branch vertex with children to run (notes 2, N > 1:
+// S directions from a point). Children run one after the other in their parent's slot, so a
+// slot stays one path.
+//
+// reads: branches
+//
+// writes: hits, rays, throughputs, ids, branches (children left), fates
+//
+// One work-item a slot.
 
 #include "sampling/vector.cl"
 #include "shared/params.h"
@@ -35,9 +40,11 @@ kernel void resume_branch(
     store3(
         PLANE(rays, RAY_DIRECTION_X), stride, slot,
         load3(PLANE(branch, BRANCH_DIRECTION_X), stride, slot));
+    // a child whose throughput was no number spoils the sample (accumulate)
+    const Vec3 before = load3(PLANE(throughputs, THROUGHPUT_R), stride, slot);
     store3(
         PLANE(throughputs, THROUGHPUT_R), stride, slot,
-        load3(PLANE(branch, BRANCH_R), stride, slot));
+        madd3(load3(PLANE(branch, BRANCH_R), stride, slot), before, 0.0f));
     PLANE(ids, ID_SCATTERING)[slot] = level - 1;
     PLANE(ids, ID_BRANCH)[slot] = as_uint(PLANE(branch, BRANCH_ID)[slot]);
     fates[slot] = (uchar)((fates[slot] & ~FATE_ENDED) | FATE_ACTIVE | FATE_RESUMED);

@@ -1,6 +1,11 @@
-// Decides which paths go on (notes 4, Russian roulette: survivors carry 1/q) and what becomes of
-// each slot. reads: ids    writes: throughputs, hits (the end), ids (scatterings of the last ray
-// traced), fates One work-item a slot. scan_queue counts the fates.
+// Decides which paths go on (notes 4, Russian roulette: survivors carry 1/q) and what becomes
+// of each slot.
+//
+// reads: ids
+//
+// writes: throughputs, hits (the end), ids (scatterings of the last ray traced), fates
+//
+// One work-item a slot. scan_queue counts the fates.
 
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
@@ -53,7 +58,9 @@ kernel void roulette_compact(
     const int over = HAS_MEDIA ? (primitive == HIT_MISS) | (primitive == HIT_ENDED) : primitive < 0;
     const int dies = !over && u >= survival;
     const int ends = over || dies;
-    store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, scale3(throughput, 1.0f / survival));
+    store3(
+        PLANE(throughputs, THROUGHPUT_R), stride, slot,
+        scale3(throughput, ends ? 1.0f : 1.0f / survival));
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(ends ? HIT_ENDED : primitive);
     PLANE(ids, ID_SCATTERING)[slot] = scattering - (dies ? 1 : 0);
 

@@ -1,6 +1,10 @@
 // Decides where a path in a medium stops on the way to the surface it would hit (notes 6, with
 // sigma_t in alpha), and adds what the medium emits along the way.
-// reads: rays, ids, media    writes: hits and positions (a stop), throughputs, radiances
+//
+// reads: rays, ids, media
+//
+// writes: hits and positions (a stop), throughputs, radiances
+//
 // One work-item a slot. A ray that misses everything has left all media, whatever its stack says:
 // the mesh was not closed.
 

@@ -1,6 +1,11 @@
 // Continues every path at a surface in a direction of its bsdf (notes 3 and 5,
-// indirectRadianceEstimator), or ends it. reads: surfaces, materials    writes: rays, hits (the
-// end), throughputs, ids, media, branches One work-item a slot.
+// indirectRadianceEstimator), or ends it.
+//
+// reads: surfaces, materials
+//
+// writes: rays, hits (the end), throughputs, ids, media, branches
+//
+// One work-item a slot.
 
 #include "geometry/interaction.cl"
 #include "media/medium_stack.cl"
@@ -65,13 +70,15 @@ kernel void sample_indirect(
         load_surface(materials, surfaces, stride, slot), to_local(frame, scale3(direction, -1.0f)),
         u, choice);
     const Vec3 wi = to_world(frame, s.wi);
-    const Vec3 throughput = mul3(carried, s.weight);
+    // a direction that is no number makes the throughput none, which accumulate finds
+    const float spoilt = 0.0f * (wi.x + wi.y + wi.z);
+    const Vec3 weight = vec3(s.weight.x + spoilt, s.weight.y + spoilt, s.weight.z + spoilt);
+    const Vec3 throughput = mul3(carried, weight);
     // A direction on the far side of the face would leak light through it: it counts as absorbed.
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    goes_on *= s.wi.z > 0.0f ? 1.0f : 0.0f;
-    goes_on *= dot3(ng, wi) > 0.0f ? 1.0f : 0.0f;
-    goes_on *=
-        max_component3(throughput) <= 0.0f ? 0.0f : 1.0f;  // NaN goes on, to be found and counted
+    goes_on *= s.wi.z <= 0.0f ? 0.0f : 1.0f;
+    goes_on *= dot3(ng, wi) <= 0.0f ? 0.0f : 1.0f;
+    goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;
     const int continues = goes_on > 0.0f;
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? primitive : HIT_ENDED);
     store3(

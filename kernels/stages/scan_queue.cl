@@ -1,6 +1,11 @@
 // Counts each chunk of QUEUE_CHUNK slots: those with work, the ended paths by length, the
-// connections. reads: fates, ids    writes: chunks, statistics (a row each chunk) One work-item a
-// chunk.
+// connections.
+//
+// reads: fates, ids
+//
+// writes: chunks, statistics (a row each chunk)
+//
+// One work-item a chunk.
 
 #include "sampling/sobol.cl"
 #include "sampling/vector.cl"

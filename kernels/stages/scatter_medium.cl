@@ -1,6 +1,10 @@
 // Continues every path that stopped in a medium in a direction of its phase function (notes 6), or
 // ends it.
-// reads: surfaces (the position), media, ids    writes: rays, hits (the end), throughputs, ids
+//
+// reads: surfaces (the position), media, ids
+//
+// writes: rays, hits (the end), throughputs, ids, media
+//
 // One work-item a slot.
 
 #include "media/medium_stack.cl"
@@ -31,7 +35,7 @@ kernel void scatter_medium(
         media[(int)innermost - 1].anisotropy, load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), u);
     const Vec3 throughput = scale3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.weight);
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    goes_on *= max_component3(throughput) <= 0.0f ? 0.0f : 1.0f;  // NaN goes on, to be found
+    goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN
     const int continues = goes_on > 0.0f;
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? HIT_MEDIUM : HIT_ENDED);
     store3(

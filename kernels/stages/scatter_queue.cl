@@ -1,6 +1,12 @@
-// Pairs the slots to be emptied with those to be filled, both in order, so that `kept` slots hold
-// all the work: idle slots below `kept`, a multiple of QUEUE_CHUNK, with live ones above it. reads:
-// hits, chunks    writes: holes, movers One work-item a chunk.
+// Pairs the slots to be emptied with those to be filled, both in order, so that `kept` slots
+// hold all the work: idle slots below `kept`, a multiple of QUEUE_CHUNK, with live ones above
+// it.
+//
+// reads: hits, chunks
+//
+// writes: holes, movers
+//
+// One work-item a chunk.
 
 #include "sampling/vector.cl"
 #include "shared/params.h"

@@ -1,5 +1,9 @@
 // Adds what the surface that was hit emits towards the viewer.
-// reads: rays, hits, surfaces, throughputs, materials, lights    writes: radiances
+//
+// reads: rays, hits, surfaces, throughputs, materials, lights
+//
+// writes: radiances
+//
 // One work-item a slot.
 
 #include "geometry/interaction.cl"

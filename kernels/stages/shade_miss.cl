@@ -1,5 +1,9 @@
 // Adds the environment's radiance to paths that left the scene.
-// reads: rays, hits, throughputs, environment    writes: radiances
+//
+// reads: rays, hits, throughputs, environment
+//
+// writes: radiances
+//
 // One work-item a slot.
 
 #include "lights/environment.cl"

@@ -23,6 +23,10 @@ void Progress::show(const RenderProgress& state) {
     shown_ = true;
 }
 
+std::string relative_error_text(double relative_error) {
+    return std::isfinite(relative_error) ? fmt::format("{:.2g}", relative_error) : "unknown";
+}
+
 void Progress::finish() {
     if (shown_ && terminal_) fmt::print(stderr, "\n");
 }
@@ -39,11 +43,11 @@ std::string Progress::line(const RenderProgress& state) const {
     else if (std::isfinite(error))  // error falls with the root of the samples
         left = state.seconds * std::max(0.0, std::pow(error / settings_.target_error, 2) - 1);
     return fmt::format(
-        "{}{} samples a pixel, {:.2f} Msamples/s, {:.2f} Mrays/s, relative error {:.3g}, {:.0f} s "
+        "{}{} samples a pixel, {:.2f} Msamples/s, {:.2f} Mrays/s, relative error {}, {:.0f} s "
         "left",
         state.samples, state.samples_wanted > 0 ? fmt::format(" of {}", state.samples_wanted) : "",
         1e-6 * samples / state.seconds, 1e-6 * static_cast<double>(state.rays) / state.seconds,
-        error, left);
+        relative_error_text(error), left);
 }
 
 }  // namespace wavepath

@@ -7,6 +7,9 @@
 
 namespace wavepath {
 
+// Two figures, or "unknown" where a picture has too few batches to tell.
+std::string relative_error_text(double relative_error);
+
 class Progress {
   public:
     Progress(const RenderSettings& settings, bool quiet);

@@ -13,6 +13,8 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <memory>
 
@@ -34,6 +36,10 @@ void check_outputs(const Outputs& outputs) {
         check_writable(path);
     }
     if (!outputs.json.empty()) check_writable(outputs.json);
+    if (std::ranges::find(outputs.images, outputs.json) != outputs.images.end())
+        throw Error("{}: is both a picture and the report; name two files", outputs.json.string());
+    if (!(std::abs(outputs.exposure) <= 100))
+        throw Error("--exposure {}: use stops between -100 and 100", outputs.exposure);
 }
 
 std::map<std::string, std::string> metadata(
@@ -56,6 +62,7 @@ std::map<std::string, std::string> metadata(
         m["wavepath.bias"] =
             "stopped by --target-error: a stopping rule that reads the samples is slightly biased" +
             (bias.empty() ? "" : "; " + bias);
+    for (const auto& [name, value] : media_settings(job)) m["wavepath." + name] = value;
     for (const std::string& warning : result.warnings) m["wavepath.warning"] += warning + "\n";
     return m;
 }
@@ -92,8 +99,8 @@ void run(const RenderOptions& options, const Outputs& outputs) {
         else
             write_png(result.film.image, path, outputs.exposure);
         spdlog::info(
-            "wrote {}: {} samples a pixel in {:.2f} s, relative error {:.3g}", path.string(),
-            result.samples, result.times.render, result.film.relative_error);
+            "wrote {}: {} samples a pixel in {:.2f} s, relative error {}", path.string(),
+            result.samples, result.times.render, relative_error_text(result.film.relative_error));
     }
     if (!outputs.json.empty())
         AtomicFile(outputs.json).commit(render_report(device, job, result).dump(2) + "\n");

@@ -117,8 +117,10 @@ std::optional<Environment> parse_environment(const RenderOptions& options) {
     const auto rgb = parse_numbers<3>(
         "--env-radiance", options.environment_radiance, "R,G,B radiance, each 0 or more");
     for (std::size_t c = 0; c < 3; ++c) {
-        if (rgb[c] < 0)
-            throw Error("--env-radiance {}: radiance is 0 or more", options.environment_radiance);
+        if (!(rgb[c] >= 0 && rgb[c] <= 1e30))
+            throw Error(
+                "--env-radiance {}: radiance is 0 or more, and 1e30 at the most",
+                options.environment_radiance);
         environment.radiance[c] = static_cast<float>(rgb[c]);
     }
     if (rgb[0] + rgb[1] + rgb[2] <= 0) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace wavepath {
@@ -20,8 +21,9 @@ uint64_t peak_host_memory() {
     return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-ordered_json settings_report(const RenderSettings& settings) {
-    return {
+ordered_json settings_report(const RenderJob& job) {
+    const RenderSettings& settings = job.settings;
+    ordered_json report = {
         {"width", settings.width},
         {"height", settings.height},
         {"camera", settings.camera.name},
@@ -36,9 +38,19 @@ ordered_json settings_report(const RenderSettings& settings) {
         {"splits", {1, 1, settings.splits}},
         {"split_depth", settings.split_depth},
     };
+    for (const auto& [name, value] : media_settings(job)) report[name] = value;
+    return report;
 }
 
 }  // namespace
+
+std::map<std::string, std::string> media_settings(const RenderJob& job) {
+    const auto encloses = [](const Material& m) { return m.boundary != Boundary::opaque; };
+    if (std::ranges::none_of(job.scene.materials, encloses)) return {};
+    return {
+        {"distance", "exponential"},
+        {"direction", job.settings.method.phase_directions ? "phase" : "uniform"}};
+}
 
 ordered_json profile_report(const RenderResult& result) {
     double kernels = 0;
@@ -75,7 +87,7 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
         {"schema", report_schema},
         {"program", "wavepath"},
         {"version", WAVEPATH_VERSION},
-        {"settings", settings_report(job.settings)},
+        {"settings", settings_report(job)},
         {"device",
          {{"platform", device.info.platform},
           {"name", device.info.name},

@@ -1,5 +1,6 @@
 #include "scene/alias_table.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace wavepath {
@@ -13,7 +14,7 @@ std::vector<AliasRow> build_alias_table(const std::vector<double>& weights) {
     std::vector<uint32_t> large;
     for (uint32_t i = 0; i < n; ++i) {
         if (sum > 0) scaled[i] = weights[i] / sum * static_cast<double>(n);
-        table[i] = {1.0F, i, static_cast<float>(scaled[i] / static_cast<double>(n))};
+        table[i] = {1.0F, i, 0.0F};
         (scaled[i] < 1 ? small : large).push_back(i);
     }
     while (!small.empty() && !large.empty()) {
@@ -28,7 +29,20 @@ std::vector<AliasRow> build_alias_table(const std::vector<double>& weights) {
             small.push_back(rich);
         }
     }
-    return table;  // rows left in either list differ from 1 by rounding alone
+    // rows left in either list differ from 1 by rounding alone
+
+    // The device compares 24 random bits with the threshold. Probabilities are those of what it
+    // does, or a light of a millionth of the weight would be off by per cents.
+    std::vector<double> chances(n, 0.0);
+    for (uint32_t i = 0; i < n; ++i) {
+        const double kept = std::ceil(table[i].threshold * 0x1p24) * 0x1p-24;
+        table[i].threshold = static_cast<float>(kept);
+        chances[i] += kept;
+        chances[table[i].alias] += 1 - kept;
+    }
+    for (uint32_t i = 0; i < n; ++i)
+        table[i].pmf = static_cast<float>(chances[i] / static_cast<double>(n));
+    return table;
 }
 
 }  // namespace wavepath

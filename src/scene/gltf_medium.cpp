@@ -9,6 +9,10 @@ namespace {
 
 constexpr const char* extras_key = "wavepath_medium";
 
+// The names that the drafts' multi-scatter albedo has had, the latest first (2026, 2025, 2024).
+constexpr const char* albedo_spellings[] = {
+    "multiscatterColorFactor", "multiscatterColor", "scatterAlbedo"};
+
 // Henyey-Greenstein beyond this is a delta in single precision.
 constexpr double largest_anisotropy = 0.99999;
 
@@ -86,15 +90,17 @@ class MediumReader {
     }
 
     // What attenuates also scatters: sigma_t stays, and its share of the single-scattering albedo
-    // is sigma_s. The drafts' multi-scatter albedo has had two names.
+    // is sigma_s.
     void scatter(
         Medium& medium,
         const tinygltf::Value& extension,
         double strength,
         const std::vector<double>& missing,
         bool albedo_knows_anisotropy) const {
+        const auto* spelling = std::ranges::find_if(
+            albedo_spellings, [&](const char* name) { return extension.Has(name); });
         const char* key =
-            extension.Has("multiscatterColor") ? "multiscatterColor" : "multiscatterColorFactor";
+            spelling == std::end(albedo_spellings) ? albedo_spellings[0] : *spelling;
         const std::vector<double> color = numbers(file_, where_, extension, key, missing);
         if (color.size() != 3) fail("{} has {} numbers instead of 3; repair it", key, color.size());
         const double g = number(file_, where_, extension, "scatterAnisotropy", 0);

@@ -171,8 +171,8 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
                 device_, slots, params_, slots, pool_.branches, pool_.hits, pool_.rays,
                 pool_.throughputs, pool_.ids, pool_.fates);
         accumulate_.launch(
-            device_, slots, params_, slots, pool_.hits, pool_.radiances, pool_.ids, cells_,
-            cell_flags_);
+            device_, slots, params_, slots, pool_.hits, pool_.throughputs, pool_.radiances,
+            pool_.ids, cells_, cell_flags_);
         work = count_work(slots, work);
         ++iterations_;
     }

@@ -177,7 +177,7 @@ class QueueManager {
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
     Stage<Params, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats, Floats> move_paths_;
-    Stage<Params, cl_uint, Floats, Floats, Uints, Floats, Uints> accumulate_;
+    Stage<Params, cl_uint, Floats, Floats, Floats, Uints, Floats, Uints> accumulate_;
     Stage<Params, Plan, Floats, Uints, Floats, Uints> fold_film_;
 };
 

@@ -108,8 +108,8 @@ void warm_up(
 class Schedule {
   public:
     Schedule(const RenderSettings& settings, uint32_t pool, uint64_t max_cells)
-        : plan_(settings.samples),
-          pixels_(uint64_t{settings.width} * settings.height),
+        : pixels_(uint64_t{settings.width} * settings.height),
+          plan_(settings.samples, pixels_),
           least_passes_((refills * pool + pixels_ - 1) / pixels_),
           max_cells_(max_cells),
           seconds_(settings.seconds) {}
@@ -140,8 +140,8 @@ class Schedule {
     // Units a slot at the least: the pool runs empty at the end of a window.
     static constexpr uint64_t refills = 4;
 
-    SamplePlan plan_;
     uint64_t pixels_;
+    SamplePlan plan_;
     uint64_t least_passes_;
     uint64_t max_cells_;
     double seconds_;
@@ -187,8 +187,8 @@ RenderResult render(
         &result.program);
     Profile profile;
     // no more slots and cells than there are units of work
-    const uint64_t units =
-        SamplePlan(settings.samples).most_passes() * settings.width * settings.height;
+    const uint64_t pixels = uint64_t{settings.width} * settings.height;
+    const uint64_t units = SamplePlan(settings.samples, pixels).most_passes() * pixels;
     const uint32_t wanted = settings.pool > 0 ? settings.pool : device.info.default_pool;
     const auto pool = static_cast<uint32_t>(std::min<uint64_t>(wanted, units));
     const uint64_t max_cells = std::min(std::max(uint64_t{1} << 20U, uint64_t{4} * pool), units);
@@ -196,6 +196,13 @@ RenderResult render(
         device, program, features, buffers, pool, max_cells, settings.work_groups,
         settings.count_lag.value_or(device.info.is_cpu ? 0 : 1), profile);
     Film film(device, settings.width, settings.height);
+    const uint64_t needed = buffers.bytes() + queues.bytes() + film.bytes();
+    if (needed > device.info.global_memory)
+        throw Error(
+            "{} MiB of device memory needed, {} MiB there; use a smaller --size or --pool, or "
+            "another --device",
+            needed >> 20U, device.info.global_memory >> 20U);
+    // last, so that no buffer takes the place of one it freed: oclgrind mixes them up
     warm_up(device, program, features, buffers, settings, params);
     result.times.program_build = watch.lap();
 

@@ -10,35 +10,33 @@ namespace wavepath {
 
 // The samples of a pixel are one sequence of points. It is cut into batches, whose spread bounds
 // the variance of the mean from above (stretches of one sequence repel each other:
-// docs/accuracy.md); a batch falls into passes of at most `pass_samples`: one pass gives every
-// pixel one unit of work.
+// docs/accuracy.md); a batch falls into passes: one pass gives every pixel one unit of work.
 class SamplePlan {
   public:
-    static constexpr uint32_t pass_samples = 8;
     static constexpr uint32_t most_rows = 1U << 16U;  // of one window
-    static constexpr uint32_t most_batches = 16;      // of a fixed number of samples
-    static constexpr uint32_t least_batch = 16;       // samples of a batch
-    static constexpr uint32_t least_batches = 4;      // even so, unless there are fewer samples
 
-    // `samples` a pixel, 0: open-ended.
-    explicit SamplePlan(uint64_t samples);
+    // `samples` a pixel, 0: open-ended. Of a large picture a pass takes fewer, so that it ends in a
+    // second or two.
+    SamplePlan(uint64_t samples, uint64_t pixels);
 
     // The next `count` rows, or what is left.
     std::vector<PlanRow> take(uint64_t count);
     // An upper bound on the rows of one window, which takes `most_rows` at the most.
     uint64_t most_passes() const;
-    bool done() const { return samples_ > 0 && batch_ >= batch_count_; }
+    bool done() const { return samples_ > 0 && taken_ >= samples_; }
     uint64_t samples_taken() const { return taken_; }  // a pixel
-    uint32_t batches_closed() const { return batch_; }
+    uint32_t batches_closed() const { return batches_; }
 
   private:
-    uint32_t batch_size() const;
+    // Of the batch in hand: an eighth of what came before it, for the longer the batches, the
+    // closer the bound.
+    uint64_t batch_size() const;
 
     uint64_t samples_;
-    uint32_t batch_count_;
-    uint32_t batch_ = 0;
-    uint32_t in_batch_ = 0;  // samples taken of the batch
-    uint32_t before_ = 0;    // samples of the batches before
+    uint64_t pass_samples_;
+    uint32_t batches_ = 0;
+    uint64_t in_batch_ = 0;  // samples taken of the batch
+    uint64_t before_ = 0;    // samples of the batches before
     uint64_t taken_ = 0;
 };
 

@@ -12,7 +12,7 @@
 #include "device/device_probe.h"
 #include "device/program.h"
 #include "scene/bvh_builder.h"
-#include "scene/embree.h"
+#include "support/embree_scene.h"
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -24,7 +24,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <ctime>
 #include <memory>
 #include <string>
@@ -34,51 +33,52 @@ namespace wavepath {
 namespace {
 
 constexpr const char* kernels = R"(
+INLINE void stream_rays(
+    const uint count, global const float* rays, global const BvhNode* nodes,
+    global const TriangleBlock* blocks, global Hit* hits, uint i, const int any) {
+    const uint end = min(count, i + RAYS_PER_ITEM);
+    RayStream stream;
+    stream_open(&stream);
+    do {
+        for (; i < end && stream_has_room(&stream); ++i) {
+            global const float* r = rays + 8 * i;
+            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
+        }
+        stream_step(&stream, nodes, blocks, any);
+        for (int k = 0; k < stream.ended; ++k) {
+            const StreamRay* ray = stream_ended(&stream, k);
+            if (any)
+                hits[ray->item].primitive = ray->hit.primitive;
+            else
+                hits[ray->item] = ray->hit;
+        }
+    } while (i < end || stream_busy(&stream));
+}
+
 kernel void closest(
     const uint count, global const float* rays, global const BvhNode* nodes,
     global const TriangleBlock* blocks, global Hit* hits) {
-    uint i = (uint)get_global_id(0) * RAYS_PER_ITEM;
+    const uint i = (uint)get_global_id(0) * RAYS_PER_ITEM;
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
         hits[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
         return;
     }
-    const uint end = min(count, i + RAYS_PER_ITEM);
-    RayStream stream;
-    stream_open(&stream);
-    do {
-        for (; i < end && stream_has_room(&stream); ++i) {
-            global const float* r = rays + 8 * i;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
-        }
-        stream_step(&stream, nodes, blocks, 0);
-        for (int k = 0; k < stream.ended; ++k) hits[stream_ended(&stream, k)->item] = stream_ended(&stream, k)->hit;
-    } while (i < end || stream_busy(&stream));
+    stream_rays(count, rays, nodes, blocks, hits, i, 0);
 }
 
 kernel void blocked(
     const uint count, global const float* rays, global const BvhNode* nodes,
     global const TriangleBlock* blocks, global Hit* hits) {
-    uint i = (uint)get_global_id(0) * RAYS_PER_ITEM;
+    const uint i = (uint)get_global_id(0) * RAYS_PER_ITEM;
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
         hits[i].primitive = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]) - 1;
         return;
     }
-    const uint end = min(count, i + RAYS_PER_ITEM);
-    RayStream stream;
-    stream_open(&stream);
-    do {
-        for (; i < end && stream_has_room(&stream); ++i) {
-            global const float* r = rays + 8 * i;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
-        }
-        stream_step(&stream, nodes, blocks, 1);
-        for (int k = 0; k < stream.ended; ++k)
-            hits[stream_ended(&stream, k)->item].primitive = stream_ended(&stream, k)->hit.primitive;
-    } while (i < end || stream_busy(&stream));
+    stream_rays(count, rays, nodes, blocks, hits, i, 1);
 }
 )";
 
@@ -95,23 +95,8 @@ double seconds() {
 
 class EmbreeScene {
   public:
-    EmbreeScene(const TestMesh& mesh, const std::string& config) {
-        const std::shared_ptr<RTCDeviceTy> device(rtcNewDevice(config.c_str()), rtcReleaseDevice);
-        scene_ = std::shared_ptr<RTCSceneTy>(rtcNewScene(device.get()), rtcReleaseScene);
-        rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
-        RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-        void* vertices = rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * mesh.size());
-        std::memcpy(vertices, mesh.positions.data(), mesh.positions.size() * sizeof(float));
-        auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.size()));
-        for (unsigned i = 0; i < 3 * mesh.size(); ++i) indices[i] = i;
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_.get(), geometry);
-        rtcReleaseGeometry(geometry);
-        rtcCommitScene(scene_.get());
-    }
+    EmbreeScene(const TestMesh& mesh, const std::string& config)
+        : scene_(embree_scene(mesh, config, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH)) {}
 
     // On every CPU, a thread pinned to each, in chunks of 1024 rays.
     void trace(const std::vector<TestRay>& rays, bool shadow, std::vector<TestHit>& hits) const {
@@ -126,7 +111,7 @@ class EmbreeScene {
 #endif
             for (std::size_t i = next.fetch_add(chunk); i < rays.size(); i = next.fetch_add(chunk))
                 for (std::size_t k = i; k < std::min(rays.size(), i + chunk); ++k)
-                    hits[k] = trace(rays[k], shadow);
+                    hits[k] = embree_trace(scene_.get(), rays[k], shadow);
         };
         std::vector<std::thread> threads;
         for (unsigned cpu = 0; cpu < std::thread::hardware_concurrency(); ++cpu)
@@ -136,30 +121,6 @@ class EmbreeScene {
 
   private:
     static constexpr std::size_t chunk = 1024;
-
-    TestHit trace(const TestRay& ray, bool shadow) const {
-        RTCRayHit query{};
-        query.ray.org_x = ray.origin[0];
-        query.ray.org_y = ray.origin[1];
-        query.ray.org_z = ray.origin[2];
-        query.ray.dir_x = ray.direction[0];
-        query.ray.dir_y = ray.direction[1];
-        query.ray.dir_z = ray.direction[2];
-        query.ray.tfar = ray.t_max;
-        query.ray.mask = ~0U;
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-        shadow ? rtcOccluded1(scene_.get(), &query.ray) : rtcIntersect1(scene_.get(), &query);
-#else
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        shadow ? rtcOccluded1(scene_.get(), &context, &query.ray)
-               : rtcIntersect1(scene_.get(), &context, &query);
-#endif
-        if (shadow) return {0, 0, 0, query.ray.tfar < 0 ? 0 : -1};
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {ray.t_max, 0, 0, -1};
-        return {query.ray.tfar, query.hit.u, query.hit.v, static_cast<int>(query.hit.primID)};
-    }
 
     std::shared_ptr<RTCSceneTy> scene_;
 };

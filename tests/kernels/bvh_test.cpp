@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <numeric>
 
 namespace wavepath {
@@ -36,13 +35,6 @@ kernel void blocked(
 }
 )");
     return instance;
-}
-
-// Room for vectors of TestRay as a probe's argument: 8 floats each.
-std::vector<cl_float> floats_of(const std::vector<TestRay>& rays) {
-    std::vector<cl_float> floats(8 * rays.size());
-    std::memcpy(floats.data(), rays.data(), rays.size() * sizeof(TestRay));
-    return floats;
 }
 
 std::vector<TestHit> closest(const Bvh& bvh, const std::vector<TestRay>& rays) {
@@ -237,15 +229,7 @@ TEST(Bvh, AnyHitAgreesWithClosestHit) {
 // Rays that mean nothing end, and hit nothing but what is there.
 TEST(Bvh, DegenerateRaysEnd) {
     const Bvh bvh = build_bvh(room_mesh().positions);
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    const float inf = std::numeric_limits<float>::infinity();
-    std::vector<TestRay> rays;
-    for (const float x : {nan, inf, 0.0F, 1e-30F, 1e30F}) {
-        rays.push_back({{x, 0, 0}, {1, 0, 0}, inf});
-        rays.push_back({{0, 0, 0}, {x, 0, 0}, inf});
-        rays.push_back({{0, 0, 0}, {x, x, x}, inf});
-        rays.push_back({{0, 0, 0}, {1, 0, 0}, x});
-    }
+    const std::vector<TestRay> rays = degenerate_rays();
     for (const TestHit& hit : closest(bvh, rays)) {
         EXPECT_GE(hit.primitive, -1);
         EXPECT_LT(hit.primitive, 36);

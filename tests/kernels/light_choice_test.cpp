@@ -80,5 +80,19 @@ TEST(LightChoice, KeepsStratification) {
     }
 }
 
+// The device tells 2^24 thresholds apart: a light of a millionth of the weight has the probability
+// that this leaves it, not the one asked for.
+TEST(LightChoice, PmfIsWhatTheThresholdsGive) {
+    const std::vector<AliasRow> table = build_alias_table({1, 1e-7, 1e-9, 3, 2e-6});
+    std::vector<double> chances(table.size(), 0.0);
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const double kept = std::ceil(double{table[i].threshold} * 0x1p24) * 0x1p-24;
+        chances[i] += kept / 5;
+        chances[table[i].alias] += (1 - kept) / 5;
+    }
+    for (std::size_t i = 0; i < table.size(); ++i)
+        EXPECT_NEAR(table[i].pmf / chances[i], 1, 1e-6) << "entry " << i;
+}
+
 }  // namespace
 }  // namespace wavepath

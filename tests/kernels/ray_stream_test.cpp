@@ -65,9 +65,8 @@ kernel void alone(
 }
 
 std::vector<TestHit> run(const char* kernel, const Bvh& bvh, const std::vector<TestRay>& rays) {
-    std::vector<cl_float> floats(8 * rays.size());
-    std::memcpy(floats.data(), rays.data(), rays.size() * sizeof(TestRay));
-    return probe().run<TestHit>(kernel, rays.size(), rays.size(), floats, bvh.nodes, bvh.blocks);
+    return probe().run<TestHit>(
+        kernel, rays.size(), rays.size(), floats_of(rays), bvh.nodes, bvh.blocks);
 }
 
 // Exact: the stream gives the bits of the lone ray, every ray once, whatever its neighbours are.
@@ -98,15 +97,7 @@ TEST(RayStream, TracesAsRaysAlone) {
 
 TEST(RayStream, DegenerateRaysEnd) {
     const Bvh bvh = build_bvh(room_mesh().positions);
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    const float inf = std::numeric_limits<float>::infinity();
-    std::vector<TestRay> rays;
-    for (const float x : {nan, inf, 0.0F, 1e-30F, 1e30F}) {
-        rays.push_back({{x, 0, 0}, {1, 0, 0}, inf});
-        rays.push_back({{0, 0, 0}, {x, 0, 0}, inf});
-        rays.push_back({{0, 0, 0}, {x, x, x}, inf});
-        rays.push_back({{0, 0, 0}, {1, 0, 0}, x});
-    }
+    const std::vector<TestRay> rays = degenerate_rays();
     for (const char* kernel : {"closest", "blocked"})
         for (const TestHit& hit : run(kernel, bvh, rays)) {
             EXPECT_GE(hit.primitive, -1);

@@ -1,5 +1,5 @@
 // The bundled scenes against another renderer: means of 8 x 8 blocks of 256 x 256 pixels with their
-// standard errors, from Mitsuba 3.9 (path, no depth cut, box filter), in reference/. Block (0, 0)
+// standard errors, from Mitsuba 3.9 (path, box filter), in reference/. Block (0, 0)
 // is the top left one.
 #include "scene/gltf_loader.h"
 #include "support/rendering.h"
@@ -18,9 +18,15 @@ nlohmann::json reference(const std::string& name) {
     return nlohmann::json::parse(file);
 }
 
-void expect_same_picture(const Scene& scene, const std::string& name, uint64_t samples) {
+void expect_same_picture(
+    const Scene& scene,
+    const std::string& name,
+    uint64_t samples,
+    const Termination& termination = {},
+    double bias_of_the_whole = 0.01) {
     const nlohmann::json truth = reference(name);
     RenderSettings settings = square_settings("mis", scene.cameras.at(0), 256, samples);
+    settings.termination = termination;
     const RenderResult result = render_scene(scene, settings);
     const char* const channels[] = {"R", "G", "B"};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -36,7 +42,8 @@ void expect_same_picture(const Scene& scene, const std::string& name, uint64_t s
             whole.error = std::hypot(whole.error, theirs.error / 64);
         }
         SCOPED_TRACE(fmt::format("{}, all of {}", name, channels[c]));
-        EXPECT_TRUE(agree(image_mean(result, channels[c]), whole, {.bias = 0.01, .tests = 3}));
+        EXPECT_TRUE(
+            agree(image_mean(result, channels[c]), whole, {.bias = bias_of_the_whole, .tests = 3}));
     }
 }
 
@@ -44,8 +51,13 @@ TEST(Reference, CornellBox) {
     expect_same_picture(load_gltf(source + "/scenes/cornell_box/scene.gltf"), "cornell_box", 64);
 }
 
+// Direct light alone, which is where a light two centimetres off fails: the rest of the picture
+// rests on a few bright paths and would take a hundred times the samples. The edge of the lamp, 400
+// times as bright as the room, is what makes the whole noisy even so.
 TEST(Reference, BoxLight) {
-    expect_same_picture(load_gltf(source + "/scenes/box_light/scene.gltf"), "box_light", 64);
+    expect_same_picture(
+        load_gltf(source + "/scenes/box_light/scene.gltf"), "box_light", 256,
+        {TerminationKind::depth, 1, 1}, 0.05);
 }
 
 TEST(Reference, Terrain) {

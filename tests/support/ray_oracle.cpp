@@ -1,6 +1,6 @@
 #include "support/ray_oracle.h"
 
-#include "scene/embree.h"
+#include "support/embree_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,43 +60,12 @@ std::array<float, 3> unit_vector(std::mt19937& random) {
 
 }  // namespace
 
-RayOracle::RayOracle(const TestMesh& mesh) : mesh_(mesh) {
-    const std::shared_ptr<RTCDeviceTy> device(rtcNewDevice("threads=1"), rtcReleaseDevice);
-    scene_ = std::shared_ptr<RTCSceneTy>(rtcNewScene(device.get()), rtcReleaseScene);
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * mesh.size());
-    std::memcpy(vertices, mesh.positions.data(), mesh.positions.size() * sizeof(float));
-    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.size()));
-    for (unsigned i = 0; i < 3 * mesh.size(); ++i) indices[i] = i;
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_.get());
-}
+RayOracle::RayOracle(const TestMesh& mesh)
+    : mesh_(mesh),
+      scene_(embree_scene(mesh, "threads=1", RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_MEDIUM)) {}
 
 TestHit RayOracle::closest(const TestRay& ray) const {
-    RTCRayHit query{};
-    query.ray.org_x = ray.origin[0];
-    query.ray.org_y = ray.origin[1];
-    query.ray.org_z = ray.origin[2];
-    query.ray.dir_x = ray.direction[0];
-    query.ray.dir_y = ray.direction[1];
-    query.ray.dir_z = ray.direction[2];
-    query.ray.tfar = ray.t_max;
-    query.ray.mask = ~0U;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(scene_.get(), &query);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene_.get(), &context, &query);
-#endif
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {ray.t_max, 0, 0, -1};
-    return {query.ray.tfar, query.hit.u, query.hit.v, static_cast<int>(query.hit.primID)};
+    return embree_trace(scene_.get(), ray, false);
 }
 
 Point RayOracle::point_of(const TestHit& hit) const {
@@ -182,6 +151,25 @@ std::vector<TestRay> make_rays(
         }
     }
     return rays;
+}
+
+std::vector<TestRay> degenerate_rays() {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float inf = std::numeric_limits<float>::infinity();
+    std::vector<TestRay> rays;
+    for (const float x : {nan, inf, 0.0F, 1e-30F, 1e30F}) {
+        rays.push_back({{x, 0, 0}, {1, 0, 0}, inf});
+        rays.push_back({{0, 0, 0}, {x, 0, 0}, inf});
+        rays.push_back({{0, 0, 0}, {x, x, x}, inf});
+        rays.push_back({{0, 0, 0}, {1, 0, 0}, x});
+    }
+    return rays;
+}
+
+std::vector<float> floats_of(const std::vector<TestRay>& rays) {
+    std::vector<float> floats(8 * rays.size());
+    std::memcpy(floats.data(), rays.data(), rays.size() * sizeof(TestRay));
+    return floats;
 }
 
 }  // namespace wavepath

@@ -54,4 +54,10 @@ enum class Aim { random, axis_parallel, edge, vertex };
 std::vector<TestRay> make_rays(
     const TestMesh& mesh, Aim aim, bool from_inside, std::size_t count, std::mt19937& random);
 
+// Rays that mean nothing: without length or direction, of numbers that are none or too large.
+std::vector<TestRay> degenerate_rays();
+
+// As a probe's argument: 8 floats each.
+std::vector<float> floats_of(const std::vector<TestRay>& rays);
+
 }  // namespace wavepath

@@ -73,12 +73,29 @@ TEST_F(RenderCommand, NamesTheBiasOfADepthCut) {
     EXPECT_NE(read_exr(path("d.exr")).metadata.at("wavepath.bias").find("2"), std::string::npos);
 }
 
+TEST_F(RenderCommand, NamesTheMethodsOfMediaWhereThereAreMedia) {
+    const std::string slab = WAVEPATH_SOURCE_DIR "/scenes/slab/scene.gltf";
+    const std::string tiny = " --size 4x4 --spp 1 --env-radiance 1,1,1 --direction uniform";
+    run("render " + slab + tiny + " -o " + path("m.exr") + " --json " + path("m.json"));
+    const Image image = read_exr(path("m.exr"));
+    EXPECT_EQ(image.metadata.at("wavepath.distance"), "exponential");
+    EXPECT_EQ(image.metadata.at("wavepath.direction"), "uniform");
+    std::ifstream file(path("m.json"));
+    const auto report = nlohmann::json::parse(file);
+    EXPECT_EQ(report["settings"]["direction"], "uniform");
+    run("render " + cornell_box + tiny + " -o " + path("n.exr"));
+    EXPECT_EQ(read_exr(path("n.exr")).metadata.count("wavepath.direction"), 0U);
+}
+
 TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(path("nothing.gltf"), "nothing.gltf");
     expect_refused(cornell_box + " --size 0x8", "--size 0x8");
     expect_refused(cornell_box + " --size 8", "--size 8");
     expect_refused(cornell_box + " --spp 0", "--spp 0");
     expect_refused(cornell_box + " --spp 4 --time 1", "give one of them");
+    expect_refused(cornell_box + " --exposure nan", "--exposure nan");
+    expect_refused(cornell_box + " --env-radiance 1e39,1,1", "--env-radiance 1e39,1,1");
+    expect_refused(cornell_box + " --json a.exr -o a.exr", "a.exr: is both");
     expect_refused(cornell_box + " --target-error -1", "--target-error");
     expect_refused(cornell_box + " --method photon", "--method");
     expect_refused(cornell_box + " --termination depth:x", "--termination depth:x");

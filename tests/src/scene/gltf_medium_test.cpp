@@ -92,7 +92,7 @@ TEST(GltfMedium, ReadsScatterDrafts) {
             testing::DoubleNear(a, 2e-6), testing::DoubleNear(b, 2e-6),
             testing::DoubleNear(c, 2e-6));
     };
-    for (const char* key : {"multiscatterColorFactor", "multiscatterColor"})
+    for (const char* key : {"multiscatterColorFactor", "multiscatterColor", "scatterAlbedo"})
         EXPECT_THAT(
             albedos("KHR_materials_volume_scatter", {{key, {0.1, 0.5, 0.9}}}),
             near(.384240, .911709, .997907));

@@ -1,0 +1,71 @@
+// Numbers that are none, put into the kernels one at a time: every sample that holds one is
+// counted.
+#include "support/environment_variable.h"
+#include "support/rendering.h"
+#include "support/temporary_folder.h"
+
+#include <fstream>
+#include <sstream>
+
+namespace wavepath {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Half of the picture: columns 8 to 15 of 16.
+const std::string right_half = "(PLANE(ids, ID_PIXEL)[slot] % 16u >= 8u ? NAN : 1.0f)";
+
+uint64_t samples_spoilt_by(
+    const std::string& file, const std::string& text, const std::string& replacement) {
+    const TemporaryFolder folder;
+    const fs::path kernels = folder / "kernels";
+    fs::copy(WAVEPATH_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive);
+    std::ostringstream content;
+    content << std::ifstream(kernels / file).rdbuf();
+    std::string source = content.str();
+    const std::size_t at = source.find(text);
+    if (at == std::string::npos) {
+        ADD_FAILURE() << file << ": no '" << text << "' any more";
+        return 0;
+    }
+    source.replace(at, text.size(), replacement);
+    std::ofstream(kernels / file) << source;
+
+    const EnvironmentVariable variable("WAVEPATH_KERNELS", kernels.string());
+    Scene scene = scene_named("lit floor");
+    add_square(scene, lambert(grey(0.5F)), {0, 0, 0}, {0, 0, 1}, 4);
+    add_square(scene, lambert(grey(0), grey(1)), {0, 0, 1}, {0, 0, -1}, 0.5);
+    RenderSettings settings =
+        square_settings("mis", orthographic({0, 0, 0.5}, {0, 0, 0}, 0.1), 16, 4);
+    settings.termination = {TerminationKind::depth, 1, 1};
+    return render(test_device(), scene, settings).film.nonfinite.samples;
+}
+
+constexpr uint64_t half = 16 * 8 * 4;
+
+TEST(NonFinite, ConnectionsAreCounted) {
+    EXPECT_EQ(
+        samples_spoilt_by(
+            "stages/direct_light.cl", "    // A product of steps",
+            "    value = scale3(value, " + right_half + ");\n    // A product of steps"),
+        half);
+}
+
+TEST(NonFinite, DirectionsAreCounted) {
+    EXPECT_EQ(
+        samples_spoilt_by(
+            "stages/sample_indirect.cl", "to_world(frame, s.wi)",
+            "scale3(to_world(frame, s.wi), " + right_half + ")"),
+        half);
+}
+
+TEST(NonFinite, ThroughputsAreCounted) {
+    EXPECT_EQ(
+        samples_spoilt_by(
+            "stages/sample_indirect.cl", "mul3(carried, weight)",
+            "scale3(mul3(carried, weight), " + right_half + ")"),
+        half);
+}
+
+}  // namespace
+}  // namespace wavepath
