@@ -99,8 +99,7 @@ class MediumReader {
         bool albedo_knows_anisotropy) const {
         const auto* spelling = std::ranges::find_if(
             albedo_spellings, [&](const char* name) { return extension.Has(name); });
-        const char* key =
-            spelling == std::end(albedo_spellings) ? albedo_spellings[0] : *spelling;
+        const char* key = spelling == std::end(albedo_spellings) ? albedo_spellings[0] : *spelling;
         const std::vector<double> color = numbers(file_, where_, extension, key, missing);
         if (color.size() != 3) fail("{} has {} numbers instead of 3; repair it", key, color.size());
         const double g = number(file_, where_, extension, "scatterAnisotropy", 0);

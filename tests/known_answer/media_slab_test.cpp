@@ -24,11 +24,6 @@ Scene slab(const Medium& medium, double half_width = 40) {
     return scene;
 }
 
-Scene with_plane(Scene scene, double z) {
-    add_square(scene, lambert(grey(0)), {0, 0, z}, {0, 0, 1}, 160);
-    return scene;
-}
-
 TEST(MediaSlab, AbsorbsByBeerAndLambert) {
     Medium medium;
     medium.sigma_a = {0.1F, 1, 5};
@@ -45,44 +40,33 @@ TEST(MediaSlab, AbsorbsByBeerAndLambert) {
     }
 }
 
-struct SlabCase {
-    double g, tau, albedo, mu, reflectance, transmittance;
-};
-
-constexpr SlabCase slab_cases[] = {
-    {0, 0.1, 0.9, 1, .04210143, .94674644},    {0, 1, 0.5, 1, .09911919, .44605839},
-    {0, 1, 0.9, 1, .26741034, .59162509},      {0, 1, 0.9, 0.5, .39366166, .41483990},
-    {0, 10, 0.9, 1, .41493469, .00561239},     {0.75, 1, 0.9, 1, .05594682, .82791736},
-    {0.75, 1, 0.9, 0.5, .17103869, .62234188}, {0.75, 10, 0.9, 1, .16470697, .07375501},
-};
-
+// The last is MCML's benchmark [van de Hulst 1980: .09739 and .66096].
 TEST(MediaSlab, ReflectsAndTransmitsByAddingDoubling) {
-    for (const SlabCase& c : slab_cases) {
+    const struct {
+        double g, tau, albedo, mu, reflectance, transmittance;
+    } cases[] = {
+        {0, 1, 0.9, 0.5, .39366166, .41483990},
+        {0.75, 1, 0.9, 0.5, .17103869, .62234188},
+        {0.75, 2, 0.9, 1, .0973946387, .6609577002},
+    };
+    for (const auto& c : cases) {
         SCOPED_TRACE(fmt::format("g {}, tau {}, albedo {}, mu {}", c.g, c.tau, c.albedo, c.mu));
+        const Strictness strictness{.tests = std::size(cases), .truth_error = 2e-7};
         const RenderResult result = render_for(
-            {.tests = std::size(slab_cases)}, slab(medium_of(c.tau, c.albedo, c.g), 40 / c.tau),
+            strictness, slab(medium_of(c.tau, c.albedo, c.g), 40 / c.tau),
             square_settings("mis", along(c.mu), 32, 64));
-        EXPECT_TRUE(has_mean(
-            shared_mean(result), c.reflectance + c.transmittance,
-            {.tests = std::size(slab_cases), .truth_error = 2e-7}));
+        EXPECT_TRUE(has_mean(shared_mean(result), c.reflectance + c.transmittance, strictness));
     }
 }
 
 // A black plane right below hides the environment there.
 TEST(MediaSlab, ReflectsAlone) {
-    struct Case {
-        const char* method;
-        SlabCase plate;
-    };
-    for (const auto& [method, c] :
-         {Case{"mis", slab_cases[2]}, Case{"direct", slab_cases[2]}, Case{"mis", slab_cases[6]}}) {
-        SCOPED_TRACE(fmt::format("{}, g {}, tau {}, mu {}", method, c.g, c.tau, c.mu));
-        const Scene scene = with_plane(slab(medium_of(c.tau, c.albedo, c.g)), -1.001);
-        const RenderResult result =
-            render_for({.tests = 3}, scene, square_settings(method, along(c.mu), 32, 64));
-        EXPECT_TRUE(
-            has_mean(shared_mean(result), c.reflectance, {.tests = 3, .truth_error = 1e-6}));
-    }
+    Scene scene = slab(medium_of(1, 0.9));
+    add_square(scene, lambert(grey(0)), {0, 0, -1.001}, {0, 0, 1}, 160);
+    const Strictness strictness{.truth_error = 1e-6};
+    const RenderResult result =
+        render_for(strictness, scene, square_settings("mis", along(0.5), 32, 64));
+    EXPECT_TRUE(has_mean(shared_mean(result), .39366166, strictness));
 }
 
 // Three optical thicknesses at once: each channel is a plate of its own.
@@ -95,11 +79,15 @@ TEST(MediaSlab, KeepsChannelsApart) {
         medium.sigma_a[c] = static_cast<float>(0.1 * taus[c]);
         medium.sigma_s[c] = static_cast<float>(0.9 * taus[c]);
     }
+    // dense blue takes the most samples: 1 % will do there
+    const Strictness strictness[] = {
+        {.tests = 3, .truth_error = 1e-6},
+        {.tests = 3, .truth_error = 1e-6},
+        {.bias = 0.01, .tests = 3, .truth_error = 1e-6}};
     const RenderResult result =
-        render_for({.tests = 3}, slab(medium, 400), square_settings("mis", along(1), 32, 64), "B");
+        render_for(strictness[2], slab(medium, 400), square_settings("mis", along(1), 32, 64), "B");
     for (std::size_t c = 0; c < 3; ++c)
-        EXPECT_TRUE(has_mean(
-            shared_mean(result, channels[c]), truths[c], {.tests = 3, .truth_error = 1e-6}))
+        EXPECT_TRUE(has_mean(shared_mean(result, channels[c]), truths[c], strictness[c]))
             << channels[c];
 }
 
@@ -121,22 +109,21 @@ constexpr double orders_slant[] = {
 
 TEST(MediaSlab, HasTheOrdersOfTheDepthAsked) {
     constexpr double albedo = 0.9;
-    for (const char* method : {"bsdf", "direct"}) {
-        for (const double mu : {1.0, 0.5}) {
-            double truth = 0;
-            for (const uint32_t depth : {0U, 1U, 2U, 3U, 5U}) {
-                SCOPED_TRACE(fmt::format("{}, mu {}, depth {}", method, mu, depth));
-                truth = 0;
-                for (uint32_t k = 0; k <= depth; ++k)
-                    truth += std::pow(albedo, k) * (mu == 1 ? orders_steep : orders_slant)[k];
-                RenderSettings settings = square_settings(method, along(mu), 32, 64);
-                settings.termination = {TerminationKind::depth, depth, 1};
-                const RenderResult result =
-                    render_for({.tests = 20}, slab(medium_of(1, albedo)), settings);
-                EXPECT_TRUE(
-                    has_mean(shared_mean(result), truth, {.tests = 20, .truth_error = 1e-6}));
-            }
-        }
+    const struct {
+        const char* method;
+        double mu;
+        uint32_t depth;
+    } cases[] = {{"bsdf", 1, 0}, {"bsdf", 1, 1}, {"direct", 0.5, 1}, {"bsdf", 0.5, 3}};
+    for (const auto& [method, mu, depth] : cases) {
+        SCOPED_TRACE(fmt::format("{}, mu {}, depth {}", method, mu, depth));
+        double truth = 0;
+        for (uint32_t k = 0; k <= depth; ++k)
+            truth += std::pow(albedo, k) * (mu == 1 ? orders_steep : orders_slant)[k];
+        RenderSettings settings = square_settings(method, along(mu), 32, 64);
+        settings.termination = {TerminationKind::depth, depth, 1};
+        const Strictness strictness{.tests = std::size(cases), .truth_error = 1e-6};
+        const RenderResult result = render_for(strictness, slab(medium_of(1, albedo)), settings);
+        EXPECT_TRUE(has_mean(shared_mean(result), truth, strictness));
     }
 }
 
