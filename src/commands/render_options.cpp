@@ -86,11 +86,7 @@ void parse_budget(const RenderOptions& options, RenderSettings& settings) {
     const int budgets = int{options.spp.has_value()} + int{options.time.has_value()} +
                         int{options.target_error.has_value()};
     if (budgets > 1) throw Error("--spp, --time and --target-error: give one of them");
-    if (options.spp) {
-        if (*options.spp == 0 || *options.spp > 0xFFFFFFFFU)
-            throw Error("--spp {}: use 1 to 4294967295", *options.spp);
-        settings.samples = *options.spp;
-    }
+    if (options.spp) settings.samples = *options.spp;
     if (options.time) {
         if (!(*options.time > 0) || !std::isfinite(*options.time))
             throw Error("--time {}: use seconds above 0", *options.time);
@@ -142,13 +138,17 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option(
            "--fov", o.fov, "Vertical field of view; default the camera's, 45 with --look-at")
         ->type_name("DEG");
-    app.add_option("--spp", o.spp, "Samples a pixel; default 64")->type_name("N");
+    app.add_option("--spp", o.spp, "Samples a pixel; default 64")
+        ->check(CLI::Range(int64_t{1}, int64_t{0xFFFFFFFF}))
+        ->type_name("N");
     app.add_option("--time", o.time, "Sample for this long instead [s]")->type_name("SECONDS");
     app.add_option(
            "--target-error", o.target_error,
            "Sample until the mean relative standard error falls below this instead")
         ->type_name("REL");
-    app.add_option("--seed", o.seed, "Of the random numbers; default 1")->type_name("N");
+    app.add_option("--seed", o.seed, "Of the random numbers; default 1")
+        ->check(CLI::Range(int64_t{0}, int64_t{0xFFFFFFFF}))
+        ->type_name("N");
     app.add_option(
            "--device", o.device,
            "cpu, gpu, P.D as `wavepath devices` numbers them, or part of a name; default PoCL")

@@ -86,7 +86,8 @@ std::vector<std::string> ignored_extensions(const tinygltf::Model& model) {
 Scene load_gltf(const std::filesystem::path& path) {
     const GltfFile file = read_gltf_file(path);
     Scene scene;
-    scene.name = path.stem().string();
+    scene.name = path.string();
+
     Ignored ignored;
     scene.materials = read_materials(file, ignored);
     note_ignored_features(file.model, ignored);

@@ -97,10 +97,11 @@ struct Environment {
     uint32_t width = 0;     // 0: constant
     uint32_t height = 0;
     std::vector<float> pixels;  // 3 a texel, linear, row by row from the top
+    std::string name;           // the map's file
 };
 
 struct Scene {
-    std::string name;                 // file stem
+    std::string name;                 // its file
     std::vector<Material> materials;  // at least one
     std::vector<Primitive> primitives;
     std::vector<Instance> instances;    // of primitives, in depth-first order of the node tree

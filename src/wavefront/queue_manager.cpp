@@ -3,10 +3,14 @@
 #include "wavefront/sample_plan.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace wavepath {
 
 namespace {
+
+// Iterations for a window to end by itself after a request to stop.
+constexpr uint64_t grace = 1000;
 
 template <typename StageType>
 std::optional<StageType> stage_if(
@@ -101,7 +105,8 @@ QueueManager::QueueManager(
       accumulate_(program, "accumulate", groups.streaming, profile),
       fold_film_(program, "fold_film", groups.streaming, profile) {}
 
-void QueueManager::render(const Window& window, RenderParams params, Film& film) {
+bool QueueManager::render(
+    const Window& window, RenderParams params, Film& film, const std::function<bool()>& stop) {
     start(window, params);
     uint32_t slots =
         std::min(pool_.slots, static_cast<uint32_t>(window.pixels * window.rows.size()));
@@ -109,7 +114,10 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
     closest_rays_ += slots;
     assign_units_.launch(
         device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.radiances);
-    while (work.active > 0) {
+    uint64_t iteration = 0;
+    uint64_t last_iteration = std::numeric_limits<uint64_t>::max();
+    bool stopping = false;
+    while (work.active > 0 && iteration < last_iteration) {
         generate_rays_.launch(
             device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays,
             pool_.throughputs, pool_.radiances, pool_.media);
@@ -174,16 +182,25 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
             device_, slots, params_, slots, pool_.hits, pool_.throughputs, pool_.radiances,
             pool_.ids, cells_, cell_flags_);
         work = count_work(slots, work);
-        ++iterations_;
+        ++iteration;
+        if (!stopping && stop()) {
+            stopping = true;
+            last_iteration = iteration + std::max(iteration, grace);
+        }
     }
-    fold_film_.launch(
-        device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
+    const bool whole = work.active == 0;
+    if (whole)
+        fold_film_.launch(
+            device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
     device_.queue.finish();
     profile_.collect();
     counts_.clear();
+    iterations_ += iteration;
+    return whole;
 }
 
 void QueueManager::start(const Window& window, RenderParams params) {
+    image_width_ = params.width;
     params.stride = pool_.stride;
     params.first_pixel = window.first_pixel;
     params.window_pixels = window.pixels;
@@ -227,9 +244,11 @@ QueueManager::Work QueueManager::count_work(uint32_t slots, const Work& before) 
         work.resumed += chunk.resumed;
         if (chunk.runaway_pixel != 0)
             throw Error(
-                "pixel {}, sample {}: the path is still alive after {} scatterings: nothing in "
+                "pixel ({}, {}), sample {}: the path is still alive after {} scatterings: nothing "
+                "in "
                 "the scene absorbs it; lower an albedo, or use --termination depth:D (biased)",
-                chunk.runaway_pixel - 1, chunk.runaway_sample, MAX_SCATTERINGS);
+                (chunk.runaway_pixel - 1) % image_width_, (chunk.runaway_pixel - 1) / image_width_,
+                chunk.runaway_sample, MAX_SCATTERINGS);
     }
     counts_.pop_front();
     closest_rays_ += work.active - work.resumed;

@@ -10,6 +10,7 @@
 #include "wavefront/stage.h"
 
 #include <deque>
+#include <functional>
 #include <optional>
 
 namespace wavepath {
@@ -53,8 +54,14 @@ class QueueManager {
     static std::vector<std::string> kernel_files(const Features& features);
 
     // Takes the window's samples and folds them into the film. `params` says all but the window.
+    // `stop` is asked every iteration. From when it says true the window gets as many more as it
+    // has had, or 1000: the return value says whether it is whole; if not, the film is as before.
     // Throws Error for a path of MAX_SCATTERINGS.
-    void render(const Window& window, RenderParams params, Film& film);
+    bool render(
+        const Window& window,
+        RenderParams params,
+        Film& film,
+        const std::function<bool()>& stop = [] { return false; });
 
     // Loads the kernels of the compaction, which a short render does not reach.
     void load_compaction();
@@ -110,6 +117,7 @@ class QueueManager {
     std::deque<Count> counts_;
     uint64_t iterations_ = 0;
     uint64_t closest_rays_ = 0;
+    uint32_t image_width_ = 1;
 
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats, Floats> generate_rays_;

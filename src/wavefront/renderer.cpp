@@ -110,7 +110,7 @@ class Schedule {
     Schedule(const RenderSettings& settings, uint32_t pool, uint64_t max_cells)
         : pixels_(uint64_t{settings.width} * settings.height),
           plan_(settings.samples, pixels_),
-          least_passes_((refills * pool + pixels_ - 1) / pixels_),
+          least_passes_(settings.samples > 0 ? (refills * pool + pixels_ - 1) / pixels_ : 1),
           max_cells_(max_cells),
           seconds_(settings.seconds) {}
 
@@ -125,7 +125,7 @@ class Schedule {
             plan_.take(std::min(fit, std::max(least_passes_, static_cast<uint64_t>(passes))));
         passes_ = rows.size();
         std::vector<Window> windows;
-        for (uint64_t first = 0; first < pixels_ && !rows.empty(); first += max_cells_)
+        for (uint64_t first = 0; first < pixels_; first += max_cells_)
             windows.push_back(
                 {static_cast<uint32_t>(first),
                  static_cast<uint32_t>(std::min(pixels_ - first, max_cells_)), rows});
@@ -137,7 +137,8 @@ class Schedule {
     }
 
   private:
-    // Units a slot at the least: the pool runs empty at the end of a window.
+    // Units a slot at the least, for the pool runs empty at the end of a window; an open-ended
+    // render of a small picture would overshoot with them.
     static constexpr uint64_t refills = 4;
 
     uint64_t pixels_;
@@ -151,11 +152,19 @@ class Schedule {
 
 }  // namespace
 
+std::string RenderSettings::bias() const {
+    const std::string cut = termination.bias();
+    if (target_error <= 0) return cut;
+    return "stopped by --target-error: a stopping rule that reads the samples is slightly biased" +
+           (cut.empty() ? "" : "; " + cut);
+}
+
 RenderResult render(
     const Device& device,
     const Scene& scene,
     const RenderSettings& settings,
-    const std::function<bool(const RenderProgress&)>& progress) {
+    const std::function<void(const RenderProgress&)>& progress,
+    const std::function<bool()>& stop) {
     RenderResult result;
     Stopwatch watch;
     const NormalisedScene geometry = normalise(scene);
@@ -209,18 +218,26 @@ RenderResult render(
     Schedule schedule(settings, pool, max_cells);
     const SamplePlan& plan = schedule.plan();
     const auto relative_error = [&] {
-        return develop(device, film, plan.samples_taken(), plan.batches_closed()).relative_error;
+        return develop(device, film, result.samples, result.batches).relative_error;
     };
     while (!plan.done()) {
-        for (const Window& window : schedule.next(result.times.render))
-            queues.render(window, params, film);
+        const std::vector<Window> windows = schedule.next(result.times.render);
+        // Once one window is in the film, the passes have to be finished everywhere.
+        const bool whole = queues.render(windows.front(), params, film, stop);
+        for (std::size_t i = 1; whole && i < windows.size(); ++i)
+            queues.render(windows[i], params, film);
         const double seconds = watch.lap();
         schedule.took(seconds);
         result.times.render += seconds;
-        if (progress) {
+        if (whole) {
+            result.samples = plan.samples_taken();
+            result.batches = plan.batches_closed();
+        }
+        result.interrupted = !whole || (!plan.done() && stop());
+        if (progress && whole) {
             const RayCounts rays = queues.ray_counts();
-            result.interrupted = !progress(
-                {plan.samples_taken(), settings.samples, result.times.render,
+            progress(
+                {result.samples, settings.samples, result.times.render,
                  rays.closest + rays.connections, relative_error});
         }
         const bool timed_out = settings.seconds > 0 && result.times.render >= settings.seconds;
@@ -229,8 +246,6 @@ RenderResult render(
         if (result.interrupted || timed_out || on_target) break;
     }
 
-    result.samples = schedule.plan().samples_taken();
-    result.batches = schedule.plan().batches_closed();
     result.film = develop(device, film, result.samples, result.batches);
     result.profile = profile.rows();
     result.device_clock = profile.device_clock();

@@ -83,6 +83,17 @@ TEST(Determinism, OfSplitsInTwoPools) {
     expect_same_bits(first, render_scene(room(), settings));
 }
 
+// 20480 triangles are traced by streams on a CPU; pools decide which rays share one.
+TEST(Determinism, OfStreamsInTwoPools) {
+    Scene scene = room();
+    add_icosphere(scene, lambert(grey(0.6F)), {0.4, -0.4, 0.3}, 0.4, 5);
+    RenderSettings settings = uneven();
+    const RenderResult first = render_scene(scene, settings);
+    ASSERT_GE(first.bvh_nodes, 1024U);
+    settings.pool = 100;
+    expect_same_bits(first, render_scene(scene, settings));
+}
+
 TEST(Determinism, OfTwoSeedsTheyDiffer) {
     RenderSettings settings = uneven();
     settings.seed = 2;
