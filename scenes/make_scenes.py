@@ -5,7 +5,7 @@
     make_scenes.py --check    compare with what is there; exit 1 and name the files that differ
 
 Units: metres and linear RGB radiance; +Y is up. Everything is diffuse (KHR_materials_specular with specularFactor 0)
-unless `metallic` is said. Lights emit from the front of their triangles only; all else is seen from both sides.
+unless `metallic` or `boundary` is said. Lights emit from the front of their triangles only; all else is seen from both sides.
 The same input gives the same bytes on every machine: vertices are rounded to float32, camera angles to 12 digits.
 """
 import base64
@@ -71,6 +71,20 @@ def metal(name, color, roughness):
         "name": name,
         "doubleSided": True,
         "pbrMetallicRoughness": {"baseColorFactor": [*color, 1.0], "metallicFactor": 1.0, "roughnessFactor": roughness},
+    }
+
+
+def boundary(name, sigma_a, sigma_s, g):
+    """An index-matched boundary around a medium, coefficients in 1/m (docs/media.md)."""
+    return {
+        "name": name,
+        "pbrMetallicRoughness": {"metallicFactor": 0.0},
+        "extensions": {
+            "KHR_materials_ior": {"ior": 1.0},
+            "KHR_materials_transmission": {"transmissionFactor": 1.0},
+            "KHR_materials_volume": {"thicknessFactor": 1.0},
+        },
+        "extras": {"wavepath_medium": {"sigma_a": list(sigma_a), "sigma_s": list(sigma_s), "g": g}},
     }
 
 
@@ -149,7 +163,32 @@ def white_furnace():
     return [("walls", cuboid((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), inward=True), walls)], camera((0.2, 0.1, 0.6), 60.0)
 
 
-SCENES = {f.__name__: f for f in (cornell_box, box_light, veach_plates, white_furnace)}
+def fog_shaft():
+    """Light falls through a hole in the ceiling of a room of fog."""
+    hole, lamp_height = 0.15, 2.4
+    walls = [mesh for mesh in room() if mesh[0] != "ceiling"]
+    strips = (
+        ("ceiling left", rectangle((-1, 1, -1), (-hole, 1, -1), (-hole, 1, 1), (-1, 1, 1)), WHITE),
+        ("ceiling right", rectangle((hole, 1, -1), (1, 1, -1), (1, 1, 1), (hole, 1, 1)), WHITE),
+        ("ceiling back", rectangle((-hole, 1, -1), (hole, 1, -1), (hole, 1, -hole), (-hole, 1, -hole)), WHITE),
+        ("ceiling front", rectangle((-hole, 1, hole), (hole, 1, hole), (hole, 1, 1), (-hole, 1, 1)), WHITE),
+    )
+    light = rectangle(*((x, lamp_height, z) for x, z in ((-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1))))
+    fog = boundary("fog", (0.02,) * 3, (0.4,) * 3, 0.3)
+    return [
+        *walls, *strips, tall_box(), ("light", light, lamp("light", 1500.0)),
+        ("fog", cuboid((0.0, 0.0, 0.0), (1.1, 1.1, 1.1)), fog),
+    ], ROOM_CAMERA
+
+
+def slab():
+    """A plate of thickness 1 m, optical thickness 0.1, 1, 10 in R, G, B, albedo 0.9; its sides are out of sight."""
+    taus = (0.1, 1.0, 10.0)
+    medium = boundary("slab", [round(0.1 * t, 6) for t in taus], [round(0.9 * t, 6) for t in taus], 0.0)
+    return [("slab", cuboid((0.0, 0.0, 0.0), (400.0, 0.5, 400.0)), medium)], camera((0.0, 2.5, 0.0), 0.5, -90.0)
+
+
+SCENES = {f.__name__: f for f in (cornell_box, box_light, veach_plates, white_furnace, fog_shaft, slab)}
 
 
 # --- glTF --------------------------------------------------------------------------------------------------------------

@@ -26,6 +26,15 @@
 #ifndef HAS_ENVIRONMENT_MAP
 #define HAS_ENVIRONMENT_MAP 1
 #endif
+#ifndef HAS_MEDIA
+#define HAS_MEDIA 1  // some material encloses a medium
+#endif
+#ifndef MEDIA_SCATTER
+#define MEDIA_SCATTER 1  // some medium scatters; 0: they absorb and emit alone
+#endif
+#ifndef PHASE_DIRECTIONS
+#define PHASE_DIRECTIONS 1  // directions in media follow the phase function; 0: uniform
+#endif
 #ifndef HAS_SPLITS
 #define HAS_SPLITS 1  // --splits: branch vertices are kept and resumed
 #endif

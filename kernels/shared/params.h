@@ -35,8 +35,11 @@ typedef struct {
     shared_uint environment_height;
     shared_float environment_r, environment_g, environment_b;  // radiance, or the scale of the map
     shared_float environment_pmf;                              // of the light choice
+    // media
+    shared_uint camera_media;  // MEDIUM_STACK at the camera
+    shared_uint padding[3];
 } RenderParams;
-SHARED_SIZE(RenderParams, 144);
+SHARED_SIZE(RenderParams, 160);
 
 // One row of the sample plan: which samples of every pixel a pass takes, counted from the pixel's
 // first.

@@ -27,6 +27,10 @@ enum HitPlane {
 #define HIT_MISS (-1)   // it left the scene
 #define HIT_ENDED (-2)  // the path is over: absorbed, or cut
 #define HIT_IDLE (-3)   // the slot has no work left
+// with HAS_MEDIA:
+#define HIT_MEDIUM (-4)  // it stopped in a medium before the surface; HIT_T and SURFACE_X say where
+#define HIT_BOUNDARY (-5)    // it passes an index-matched boundary and goes on as the same ray
+#define HIT_DIELECTRIC (-6)  // it leaves a smooth dielectric boundary as a new ray
 
 // surfaces: what was hit, where HIT_PRIMITIVE >= 0
 enum SurfacePlane {
@@ -48,6 +52,19 @@ enum SurfacePlane {
     SURFACE_PLANES
 };
 #define SURFACE_PLANES_FLAT SURFACE_N_X
+
+// media: where a path stands among the media (only with HAS_MEDIA). A ray that passes an
+// index-matched boundary keeps its origin: its next segment begins at MEDIUM_T, behind the triangle
+// MEDIUM_PRIMITIVE, and no offset has to be right.
+enum MediumPlane {
+    MEDIUM_STACK,      // (uint bits) media around the segment, 8 bits each: rows of the table of
+                       // media + 1, the innermost lowest; 0: vacuum (media/medium_stack.cl)
+    MEDIUM_T,          // where the segment begins [distance along the ray, normalised]
+    MEDIUM_PRIMITIVE,  // (int bits) the boundary it begins at; NO_BOUNDARY at the ray's origin
+    MEDIUM_PASSES,     // (uint bits) boundaries passed since the ray's origin
+    MEDIUM_PLANES
+};
+#define NO_BOUNDARY (-1)
 
 // throughputs: what the path carries
 enum ThroughputPlane {

@@ -1,7 +1,8 @@
-// Chooses a point on a light for every path at a surface and leaves the connection to
-// `occlusion` (notes 5, directRadianceEstimator, with the f_r that the notes leave out).
+// Chooses a point on a light for every path at a surface, or at a stop in a medium, and leaves the
+// connection to `occlusion` or `connect_through_media` (notes 5, directRadianceEstimator, with the
+// f_r that the notes leave out; notes 6).
 //
-// reads: rays, hits, surfaces, throughputs, ids, scene, lights
+// reads: rays, hits, surfaces, throughputs, ids, media, scene, lights
 //
 // writes: shadows
 //
@@ -11,6 +12,8 @@
 #include "lights/area_light.cl"
 #include "lights/environment.cl"
 #include "lights/punctual.cl"
+#include "media/medium_stack.cl"
+#include "media/phase.cl"
 #include "sampling/dimensions.cl"
 
 kernel void direct_light(
@@ -20,11 +23,13 @@ kernel void direct_light(
     global const DeviceMaterial* restrict materials,
     global const DeviceLight* restrict lights,
     global const EnvironmentEntry* restrict environment,
+    global const DeviceMedium* restrict media,
     global const float* restrict rays,
     global const float* restrict hits,
     global const float* restrict surfaces,
     global const float* restrict throughputs,
     global const uint* restrict ids,
+    global const float* restrict path_media,
     global float* restrict shadows) {
     const RenderParams params = *settings;
     const size_t stride = params.stride;
@@ -32,7 +37,8 @@ kernel void direct_light(
     if (slot >= slots) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
     PLANE(shadows, SHADOW_T_MAX)[slot] = 0.0f;
-    if (primitive < 0) return;
+    const int in_medium = HAS_MEDIA && MEDIA_SCATTER && primitive == HIT_MEDIUM;
+    if (primitive < 0 && !in_medium) return;
     if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
     const Vec3 p = load3(PLANE(surfaces, SURFACE_X), stride, slot);
     const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
@@ -81,20 +87,27 @@ kernel void direct_light(
         to_local(frame, scale3(load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), -1.0f));
     const Vec3 wi = to_local(frame, s.wi);
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
-    value = mul3(value, gltf_eval(surface, wo, wi));
+    float phase = 0.0f;
+    if (HAS_MEDIA && MEDIA_SCATTER) {
+        const uint innermost = innermost_medium(as_uint(PLANE(path_media, MEDIUM_STACK)[slot]));
+        const float g = media[(int)max(innermost, 1u) - 1].anisotropy;
+        phase = phase_eval(g, load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), s.wi);
+    }
+    value = mul3(value, select3(in_medium, vec3(phase, phase, phase), gltf_eval(surface, wo, wi)));
     if (WEIGH_BOTH) {
+        const float pdf_w = in_medium ? phase_pdf_w(phase) : gltf_pdf_w(surface, wo, wi);
         // a sky below the horizon has no density and no radiance either
-        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), gltf_pdf_w(surface, wo, wi));
+        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), pdf_w);
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
     // NaN passes every test, to be found and counted.
     // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay
     // scalar on PoCL.
     float t_max = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    t_max *= dot3(ng, s.wi) <= 0.0f ? 0.0f : 1.0f;
-    t_max *= wi.z <= 0.0f ? 0.0f : 1.0f;
+    t_max *= in_medium || !(dot3(ng, s.wi) <= 0.0f) ? 1.0f : 0.0f;
+    t_max *= in_medium || !(wi.z <= 0.0f) ? 1.0f : 0.0f;
     t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
-    const Vec3 origin = leave(p, ng);
+    const Vec3 origin = select3(in_medium, p, leave(p, ng));
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, sub3(s.p, origin));
     PLANE(shadows, SHADOW_T_MAX)[slot] = t_max;

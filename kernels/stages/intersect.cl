@@ -1,6 +1,6 @@
 // Finds the closest triangle along every ray.
 //
-// reads: rays, bvh
+// reads: rays, media, bvh
 //
 // writes: hits
 //
@@ -19,12 +19,20 @@ INLINE void store_hit(global float* hits, const size_t stride, const size_t slot
     PLANE(hits, HIT_V)[slot] = hit->v;
 }
 
+// Behind the boundary that the ray passed last.
+INLINE RayStart load_start(global const float* path_media, const size_t stride, const size_t slot) {
+    if (!HAS_MEDIA) return at_origin();
+    return ray_start(
+        PLANE(path_media, MEDIUM_T)[slot], as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]));
+}
+
 kernel void intersect(
     constant const RenderParams* restrict params,
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
     global const float* restrict rays,
+    global const float* restrict path_media,
     global float* restrict hits) {
     const size_t stride = params->stride;
     uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
@@ -35,7 +43,8 @@ kernel void intersect(
         const Hit hit = closest_hit(
             nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
             PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
-            PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY);
+            PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
+            load_start(path_media, stride, slot));
         store_hit(hits, stride, slot, &hit);
         return;
     }
@@ -49,7 +58,8 @@ kernel void intersect(
             stream_add(
                 &stream, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
                 PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
-                PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY);
+                PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
+                load_start(path_media, stride, slot));
         }
         stream_step(&stream, nodes, blocks, 0);
         for (int k = 0; k < stream.ended; ++k) {

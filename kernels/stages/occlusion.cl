@@ -53,7 +53,7 @@ kernel void occlusion(
                 &stream, slot, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
                 PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
                 PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
-                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max);
+                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin());
         }
         stream_step(&stream, nodes, blocks, 1);
         for (int k = 0; k < stream.ended; ++k) {

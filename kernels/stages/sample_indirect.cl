@@ -3,11 +3,12 @@
 //
 // reads: surfaces, materials
 //
-// writes: rays, hits (the end), throughputs, ids, branches
+// writes: rays, hits (the end), throughputs, ids, media, branches
 //
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
 
@@ -20,6 +21,7 @@ kernel void sample_indirect(
     global float* restrict hits,
     global float* restrict throughputs,
     global uint* restrict ids,
+    global float* restrict path_media,
     global float* restrict branches) {
     const RenderParams params = *settings;
     const size_t stride = params.stride;
@@ -86,4 +88,5 @@ kernel void sample_indirect(
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = s.pdf_w;
     PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
+    if (HAS_MEDIA) start_at_origin(path_media, stride, slot);
 }

@@ -171,6 +171,12 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option("--sampler", o.sampler, "Kind of points; default sobol")
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent");
+    app.add_option("--distance", o.distance, "Distances in media: exponential")
+        ->check(CLI::IsMember({"exponential"}))
+        ->type_name("exponential");
+    app.add_option("--direction", o.direction, "Directions in media; default phase")
+        ->check(CLI::IsMember({"phase", "uniform"}))
+        ->type_name("phase|uniform");
     app.add_option("--splits", o.splits, "1,1,S: S directions from a surface point")
         ->type_name("N,M,S");
     app.add_option("--split-depth", o.split_depth, "Only the first K vertices split; default 1")
@@ -193,6 +199,7 @@ RenderJob prepare_job(const RenderOptions& options) {
     if (!options.light_choice.empty())
         settings.method.light_choice =
             options.light_choice == "area" ? LightChoice::area : LightChoice::power;
+    settings.method.phase_directions = options.direction == "phase";
     settings.termination = parse_termination(options.termination);
     settings.splits = parse_splits(options.splits);
     settings.split_depth = options.split_depth;

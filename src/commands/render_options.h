@@ -30,6 +30,8 @@ struct RenderOptions {
     std::string termination = "roulette";
     std::string light_choice;  // empty: the method's own
     std::string sampler = "sobol";
+    std::string distance = "exponential";
+    std::string direction = "phase";
     std::string splits = "1,1,1";
     uint32_t split_depth = 1;
     std::filesystem::path environment;

@@ -4,6 +4,7 @@
 #include "device/device_array.h"
 #include "scene/bvh_builder.h"
 #include "scene/light_tables.h"
+#include "scene/media_tables.h"
 #include "scene/normalise.h"
 #include "shared/scene.h"
 
@@ -15,13 +16,15 @@ struct SceneBuffers {
         const Scene& scene,
         const NormalisedScene& geometry,
         const Bvh& bvh,
-        const LightTables& tables);
+        const LightTables& tables,
+        const MediaTables& media_tables);
 
     DeviceArray<BvhNode> nodes;
     DeviceArray<TriangleBlock> blocks;
     DeviceArray<cl_float> triangles;  // layout in kernels/shared/scene.h
     DeviceArray<DeviceMaterial> materials;
     DeviceArray<DeviceLight> lights;
+    DeviceArray<DeviceMedium> media;
     DeviceArray<EnvironmentEntry> environment;
 
     std::size_t bytes() const;

@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -76,7 +77,7 @@ ordered_json settings_report(const RenderJob& job) {
     if (job.scene.environment)
         environment = {
             {"map", job.scene.environment->name}, {"radiance", job.scene.environment->radiance}};
-    return {
+    ordered_json report = {
         {"width", settings.width},
         {"height", settings.height},
         {"camera", settings.camera.name},
@@ -96,6 +97,12 @@ ordered_json settings_report(const RenderJob& job) {
         {"splits", {1, 1, settings.splits}},
         {"split_depth", settings.split_depth},
     };
+    const auto encloses = [](const Material& m) { return m.boundary != Boundary::opaque; };
+    if (std::ranges::any_of(job.scene.materials, encloses)) {
+        report["distance"] = "exponential";
+        report["direction"] = settings.method.phase_directions ? "phase" : "uniform";
+    }
+    return report;
 }
 
 ordered_json profile_report(const RenderResult& result) {

@@ -5,6 +5,7 @@
 #include "wavefront/renderer.h"
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace wavepath {
 

@@ -12,9 +12,21 @@ float dielectric_f0(const Material& material, std::size_t channel) {
     return std::min(ratio * ratio * material.specular_color[channel], 1.0F);
 }
 
+cl_uint device_boundary(Boundary boundary) {
+    switch (boundary) {
+        case Boundary::opaque:
+            return BOUNDARY_OPAQUE;
+        case Boundary::index_matched:
+            return BOUNDARY_INDEX_MATCHED;
+        case Boundary::dielectric:
+            return BOUNDARY_DIELECTRIC;
+    }
+    return BOUNDARY_OPAQUE;
+}
+
 }  // namespace
 
-DeviceMaterial device_material(const Material& material) {
+DeviceMaterial device_material(const Material& material, uint32_t medium) {
     DeviceMaterial d{};
     d.base_r = material.base_color[0];
     d.base_g = material.base_color[1];
@@ -29,11 +41,14 @@ DeviceMaterial device_material(const Material& material) {
     d.emission_b = material.emission[2];
     d.alpha = material.roughness * material.roughness;
     d.double_sided = material.double_sided ? 1 : 0;
+    d.boundary = device_boundary(material.boundary);
+    d.medium = medium;
     return d;
 }
 
 bool reflects_specularly(const Material& material) {
-    return material.metallic > 0 || material.specular > 0;
+    return material.boundary == Boundary::opaque &&
+           (material.metallic > 0 || material.specular > 0);
 }
 
 }  // namespace wavepath

@@ -6,8 +6,8 @@
 namespace wavepath {
 
 // F0 of the dielectric: min(((ior - 1) / (ior + 1))^2 * specularColor, 1); 1 for ior 0
-// (KHR_materials_ior, _specular).
-DeviceMaterial device_material(const Material& material);
+// (KHR_materials_ior, _specular). `medium`: MediaTables::rows.
+DeviceMaterial device_material(const Material& material, uint32_t medium);
 
 // Whether it has a lobe besides the Lambertian.
 bool reflects_specularly(const Material& material);

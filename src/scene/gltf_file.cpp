@@ -27,8 +27,12 @@ constexpr auto supported_extensions = std::to_array<std::string_view>({
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
+    "KHR_materials_scatter",
     "KHR_materials_specular",
+    "KHR_materials_transmission",
     "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
 });

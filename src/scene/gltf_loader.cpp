@@ -45,7 +45,8 @@ class MeshInstancer {
         for (const Matrix4& to_world : instances) {
             if (flattens_triangles(to_world)) continue;  // a scale of 0 is how files hide a mesh
             for (std::uint32_t primitive = first; primitive < last; ++primitive)
-                scene_.instances.push_back({primitive, to_world});
+                scene_.instances.push_back({primitive, to_world, bodies_});
+            ++bodies_;
         }
     }
 
@@ -105,6 +106,7 @@ class MeshInstancer {
     std::size_t triangles_ = 0;  // instances expanded
     const std::size_t available_memory_ = available_memory();
     std::map<std::pair<int, Pose>, Range> read_;
+    std::uint32_t bodies_ = 0;
 };
 
 void note_ignored_features(const tinygltf::Model& model, Ignored& ignored) {
@@ -143,9 +145,9 @@ Scene load_gltf(const std::filesystem::path& path, const std::string& selector) 
     const GltfFile file = read_gltf_file(path);
     Scene scene;
     scene.name = path.string();
-    scene.materials = read_materials(file);
 
     Ignored ignored;
+    scene.materials = read_materials(file, ignored);
     note_ignored_features(file.model, ignored);
     const std::vector<PlacedNode> nodes = place_nodes(file, selector);
     MeshInstancer meshes(file, nodes, scene, ignored);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/gltf_file.h"
+#include "scene/gltf_ignored.h"
 #include "scene/scene.h"
 
 #include <vector>
@@ -11,6 +12,6 @@ namespace wavepath {
 // The file's materials in order, then the default one: white, metallic 1, roughness 1 [glTF 2.0,
 // section 3.9.6]. Factors outside the range glTF gives them are an error: a base color above 1
 // would make energy.
-std::vector<Material> read_materials(const GltfFile& file);
+std::vector<Material> read_materials(const GltfFile& file, Ignored& ignored);
 
 }  // namespace wavepath

@@ -134,9 +134,11 @@ NormalisedScene normalise(const Scene& scene) {
         normals = normals || !scene.primitives[instance.primitive].normals.empty();
         colors = colors || !scene.primitives[instance.primitive].colors.empty();
     }
-    for (const Instance& instance : scene.instances)
+    for (const Instance& instance : scene.instances) {
         append_instance(
             out, scene.primitives[instance.primitive], instance.to_world, normals, colors);
+        out.ends.push_back(static_cast<uint32_t>(out.triangle_count()));
+    }
     if (out.materials.empty())
         throw Error("{}: every triangle has zero area; there is nothing to render", scene.name);
     for (const PunctualLight& light : scene.lights)

@@ -25,6 +25,7 @@ struct NormalisedScene {
     std::vector<float> normals;       // 9 a triangle, or empty: every triangle is flat
     std::vector<float> colors;        // 9 a triangle, or empty: all white
     std::vector<uint32_t> materials;  // one a triangle
+    std::vector<uint32_t> ends;       // of each instance's triangles
     std::vector<PunctualLight>
         lights;  // positions and ranges normalised; point and spot intensity / metres^2
     std::size_t dropped = 0;  // triangles of zero area, left out

@@ -16,6 +16,24 @@ using Matrix4 = std::array<double, 16>;  // column-major, as glTF stores it
 
 inline constexpr Matrix4 identity_matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
+// What a surface does to light that meets it.
+enum class Boundary {
+    opaque,
+    index_matched,  // passes straight, tinted by the base colour: nothing is reflected or refracted
+    dielectric  // smooth: reflects and refracts by Fresnel's equations, tints what it lets through
+};
+
+// A homogeneous medium, per metre of world space.
+struct Medium {
+    Rgb sigma_a{0, 0, 0};   // [1/m] absorption
+    Rgb sigma_s{0, 0, 0};   // [1/m] scattering
+    Rgb emission{0, 0, 0};  // radiance emitted per metre: sigma_a B where it is isothermal
+    float anisotropy = 0;   // [1] g of Henyey-Greenstein: mean cosine, -1 < g < 1
+
+    bool emits() const { return emission[0] > 0 || emission[1] > 0 || emission[2] > 0; }
+    bool scatters() const { return sigma_s[0] > 0 || sigma_s[1] > 0 || sigma_s[2] > 0; }
+};
+
 // glTF 2.0 metallic-roughness with KHR_materials_ior, _specular (factors) and _emissive_strength.
 struct Material {
     std::string name;
@@ -27,6 +45,8 @@ struct Material {
     Rgb specular_color{1, 1, 1};  // [1] specularColorFactor: tints its F0
     Rgb emission{0, 0, 0};        // radiance: emissiveFactor * emissiveStrength
     bool double_sided = false;    // true: emits from both faces
+    Boundary boundary = Boundary::opaque;
+    Medium medium{};  // what it encloses, unless it is opaque
 
     bool emits() const { return emission[0] > 0 || emission[1] > 0 || emission[2] > 0; }
 };
@@ -44,6 +64,7 @@ struct Primitive {
 struct Instance {
     uint32_t primitive = 0;  // into Scene::primitives
     Matrix4 to_world = identity_matrix;
+    uint32_t body = 0;  // instances of one number enclose a medium together: a node's mesh
 };
 
 struct Camera {

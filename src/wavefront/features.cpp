@@ -19,6 +19,9 @@ std::string Features::defines() const {
     define("HAS_PUNCTUAL_LIGHTS", punctual_lights);
     define("HAS_ENVIRONMENT", environment);
     define("HAS_ENVIRONMENT_MAP", environment_map);
+    define("HAS_MEDIA", media);
+    define("MEDIA_SCATTER", media_scatter);
+    define("PHASE_DIRECTIONS", phase_directions);
     define("HAS_SPLITS", split_levels > 0);
     define("SAMPLE_LIGHTS", sample_lights);
     define("SAMPLE_LOBES", sample_lobes);
@@ -32,6 +35,7 @@ Features features_of(
     const Scene& scene,
     const NormalisedScene& geometry,
     const LightTables& lights,
+    const MediaTables& media,
     const Method& method,
     uint32_t split_levels,
     bool sobol) {
@@ -45,6 +49,10 @@ Features features_of(
     f.punctual_lights = !geometry.lights.empty();
     f.environment = scene.environment.has_value();
     f.environment_map = f.environment && scene.environment->width > 0;
+    f.media = !media.media.empty();
+    f.media_scatter = media.scatter;
+    f.dielectrics = media.refract;
+    f.phase_directions = method.phase_directions;
     f.split_levels = split_levels;
     f.sample_lights = method.sample_lights && !lights.lights.empty();
     f.sample_lobes = method.sample_lobes;

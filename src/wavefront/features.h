@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/light_tables.h"
+#include "scene/media_tables.h"
 #include "scene/normalise.h"
 #include "scene/scene.h"
 #include "wavefront/method.h"
@@ -18,6 +19,10 @@ struct Features {
     bool punctual_lights = false;
     bool environment = false;
     bool environment_map = false;
+    bool media = false;
+    bool media_scatter = false;
+    bool dielectrics = false;  // smooth boundaries that refract
+    bool phase_directions = true;
     uint32_t split_levels = 0;  // vertices that branch
     bool sample_lights = false;
     bool sample_lobes = false;
@@ -33,6 +38,7 @@ Features features_of(
     const Scene& scene,
     const NormalisedScene& geometry,
     const LightTables& lights,
+    const MediaTables& media,
     const Method& method,
     uint32_t split_levels,
     bool sobol);

@@ -16,6 +16,7 @@ struct Method {
         false;  // choose points on lights; emission met by chance counts only where that cannot
     bool sample_lobes = false;  // directions follow the bsdf; else uniform in projected solid angle
     bool weigh_both = false;    // both, by the power heuristic
+    bool phase_directions = true;  // in media directions follow the phase function; else uniform
     LightChoice light_choice = LightChoice::area;
 };
 

@@ -30,7 +30,12 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
                                    "move_paths",   "interact",      "first_hit"};
     if (features.environment) names.emplace_back("shade_miss");
     if (features.area_lights) names.emplace_back("shade_emission");
-    if (features.sample_lights) names.insert(names.end(), {"direct_light", "occlusion"});
+    if (features.sample_lights)
+        names.insert(
+            names.end(), {"direct_light", features.media ? "connect_through_media" : "occlusion"});
+    if (features.media) names.insert(names.end(), {"sample_distance", "pass_boundary"});
+    if (features.dielectrics) names.emplace_back("refract_boundary");
+    if (features.media_scatter) names.emplace_back("scatter_medium");
     names.insert(
         names.end(),
         {"sample_indirect", "roulette_compact", "scan_queue", "accumulate", "fold_film"});
@@ -62,21 +67,35 @@ QueueManager::QueueManager(
       assign_units_(program, "assign_units", groups.streaming, profile),
       generate_rays_(program, "generate_rays", groups.streaming, profile),
       intersect_(program, "intersect", features.rays_per_item > 1 ? 1 : groups.traversal, profile),
+      sample_distance_(stage_if<decltype(sample_distance_)::value_type>(
+          features.media, program, "sample_distance", groups.streaming, profile)),
       interact_(program, "interact", groups.streaming, profile),
+      pass_boundary_(stage_if<decltype(pass_boundary_)::value_type>(
+          features.media, program, "pass_boundary", groups.streaming, profile)),
       first_hit_(program, "first_hit", groups.streaming, profile),
       shade_miss_(stage_if<decltype(shade_miss_)::value_type>(
           features.environment, program, "shade_miss", groups.streaming, profile)),
       shade_emission_(stage_if<decltype(shade_emission_)::value_type>(
           features.area_lights, program, "shade_emission", groups.streaming, profile)),
+      refract_boundary_(stage_if<decltype(refract_boundary_)::value_type>(
+          features.dielectrics, program, "refract_boundary", groups.streaming, profile)),
       direct_light_(stage_if<decltype(direct_light_)::value_type>(
           features.sample_lights, program, "direct_light", groups.streaming, profile)),
       occlusion_(stage_if<decltype(occlusion_)::value_type>(
-          features.sample_lights,
+          features.sample_lights && !features.media,
           program,
           "occlusion",
           features.rays_per_item > 1 ? 1 : groups.traversal,
           profile)),
+      connect_through_media_(stage_if<decltype(connect_through_media_)::value_type>(
+          features.sample_lights && features.media,
+          program,
+          "connect_through_media",
+          groups.traversal,
+          profile)),
       sample_indirect_(program, "sample_indirect", groups.streaming, profile),
+      scatter_medium_(stage_if<decltype(scatter_medium_)::value_type>(
+          features.media_scatter, program, "scatter_medium", groups.streaming, profile)),
       roulette_compact_(program, "roulette_compact", groups.streaming, profile),
       resume_branch_(stage_if<decltype(resume_branch_)::value_type>(
           features.split_levels > 0, program, "resume_branch", groups.streaming, profile)),
@@ -101,15 +120,23 @@ bool QueueManager::render(
     while (work.active > 0 && iteration < last_iteration) {
         generate_rays_.launch(
             device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays,
-            pool_.throughputs, pool_.radiances);
+            pool_.throughputs, pool_.radiances, pool_.media);
         const uint32_t ray_items = (slots + features_.rays_per_item - 1) / features_.rays_per_item;
         intersect_.launch(
             device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, pool_.rays,
-            pool_.hits);
+            pool_.media, pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
+        if (sample_distance_)
+            sample_distance_->launch(
+                device_, slots, params_, slots, scene_.media, pool_.rays, pool_.ids, pool_.media,
+                pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
         interact_.launch(
             device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
             pool_.hits, pool_.surfaces);
+        if (pass_boundary_)
+            pass_boundary_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
+                pool_.surfaces, pool_.media, pool_.hits, pool_.throughputs);
         first_hit_.launch(
             device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
         if (shade_miss_)
@@ -120,18 +147,31 @@ bool QueueManager::render(
             shade_emission_->launch(
                 device_, slots, params_, slots, scene_.materials, scene_.lights, pool_.rays,
                 pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
-        if (direct_light_) {
+        if (refract_boundary_)
+            refract_boundary_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,
+                pool_.surfaces, pool_.rays, pool_.media, pool_.hits, pool_.throughputs, pool_.ids);
+        if (direct_light_)
             direct_light_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
-                scene_.environment, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs,
-                pool_.ids, pool_.shadows);
+                scene_.environment, scene_.media, pool_.rays, pool_.hits, pool_.surfaces,
+                pool_.throughputs, pool_.ids, pool_.media, pool_.shadows);
+        if (occlusion_)
             occlusion_->launch(
                 device_, (slots + features_.rays_per_item - 1) / features_.rays_per_item, params_,
                 slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
-        }
+        if (connect_through_media_)
+            connect_through_media_->launch(
+                device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
+                scene_.materials, scene_.media, pool_.shadows, pool_.media, pool_.radiances,
+                pool_.fates);
         sample_indirect_.launch(
             device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays,
-            pool_.hits, pool_.throughputs, pool_.ids, pool_.branches);
+            pool_.hits, pool_.throughputs, pool_.ids, pool_.media, pool_.branches);
+        if (scatter_medium_)
+            scatter_medium_->launch(
+                device_, slots, params_, slots, scene_.media, pool_.surfaces, pool_.media,
+                pool_.rays, pool_.hits, pool_.throughputs, pool_.ids);
         roulette_compact_.launch(
             device_, slots, params_, slots, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
         if (resume_branch_)
@@ -181,7 +221,7 @@ void QueueManager::load_compaction() {
         pool_.movers);
     move_paths_.launch(
         device_, 1, params_, pool_.holes, pool_.movers, pool_.rays, pool_.hits, pool_.throughputs,
-        pool_.radiances, pool_.ids, pool_.branches);
+        pool_.radiances, pool_.ids, pool_.media, pool_.branches);
     device_.queue.finish();
 }
 
@@ -223,7 +263,7 @@ uint32_t QueueManager::compact(uint32_t slots, uint32_t active) {
         pool_.chunk_states, pool_.holes, pool_.movers);
     move_paths_.launch(
         device_, std::min(active, slots - kept), params_, pool_.holes, pool_.movers, pool_.rays,
-        pool_.hits, pool_.throughputs, pool_.radiances, pool_.ids, pool_.branches);
+        pool_.hits, pool_.throughputs, pool_.radiances, pool_.ids, pool_.media, pool_.branches);
     return kept;
 }
 

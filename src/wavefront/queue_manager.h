@@ -79,6 +79,7 @@ class QueueManager {
     using Plan = Array<PlanRow>;
     using Materials = Array<DeviceMaterial>;
     using Lights = Array<DeviceLight>;
+    using Media = Array<DeviceMedium>;
     using Map = Array<EnvironmentEntry>;
     using Nodes = Array<BvhNode>;
     using Blocks = Array<TriangleBlock>;
@@ -119,9 +120,14 @@ class QueueManager {
     uint32_t image_width_ = 1;
 
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;
-    Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats> generate_rays_;
-    Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats> intersect_;
+    Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats, Floats> generate_rays_;
+    Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Floats> intersect_;
+    std::optional<
+        Stage<Params, cl_uint, Media, Floats, Uints, Floats, Floats, Floats, Floats, Floats>>
+        sample_distance_;
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
+    std::optional<Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats, Floats, Floats>>
+        pass_boundary_;
     Stage<Params, cl_uint, Floats, Floats, Uints, Floats> first_hit_;
     std::optional<Stage<Params, cl_uint, Map, Floats, Floats, Floats, Floats>> shade_miss_;
     std::optional<Stage<Params, cl_uint, Materials, Lights, Floats, Floats, Floats, Floats, Floats>>
@@ -131,24 +137,54 @@ class QueueManager {
         cl_uint,
         Floats,
         Materials,
+        Media,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Uints>>
+        refract_boundary_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Materials,
         Lights,
         Map,
+        Media,
         Floats,
         Floats,
         Floats,
         Floats,
         Uints,
+        Floats,
         Floats>>
         direct_light_;
     std::optional<Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Fates>> occlusion_;
-    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats>
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Nodes,
+        Blocks,
+        Floats,
+        Materials,
+        Media,
+        Floats,
+        Floats,
+        Floats,
+        Fates>>
+        connect_through_media_;
+    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats, Floats>
         sample_indirect_;
+    std::optional<Stage<Params, cl_uint, Media, Floats, Floats, Floats, Floats, Floats, Uints>>
+        scatter_medium_;
     Stage<Params, cl_uint, Uints, Floats, Floats, Fates> roulette_compact_;
     std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Fates>>
         resume_branch_;
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
-    Stage<Params, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats> move_paths_;
+    Stage<Params, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats, Floats> move_paths_;
     Stage<Params, cl_uint, Floats, Floats, Floats, Uints, Floats, Uints> accumulate_;
     Stage<Params, Plan, Floats, Uints, Floats, Uints> fold_film_;
 };

@@ -32,18 +32,19 @@ void check_lights(
     const Scene& scene,
     const NormalisedScene& geometry,
     const LightTables& tables,
+    const MediaTables& media,
     const Method& method,
     RenderResult& result) {
     const bool area =
         std::ranges::any_of(tables.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
     const bool punctual = !geometry.lights.empty();
-    if (!area && !punctual && !scene.environment)
+    if (!area && !punctual && !scene.environment && !media.emit)
         throw Error(
             "{}: no light; add an emissive material, a KHR_lights_punctual light, --env or "
             "--env-radiance",
             scene.name);
     if (method.sample_lights || !punctual) return;
-    if (!area && !scene.environment)
+    if (!area && !scene.environment && !media.emit)
         throw Error(
             "{}: --method {} cannot find punctual lights, and the scene has no other; use direct, "
             "direct-bsdf or mis",
@@ -169,10 +170,15 @@ RenderResult render(
     const NormalisedScene geometry = normalise(scene);
     const LightTables tables = build_light_tables(
         scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
-    check_lights(scene, geometry, tables, settings.method, result);
+    const MediaTables media = build_media_tables(scene, geometry);
+    result.warnings = media.warnings;
+    check_lights(scene, geometry, tables, media, settings.method, result);
+    if (!media.media.empty() && settings.splits > 1)
+        throw Error(
+            "--splits: does not work in scenes with media yet ({}); leave it out", scene.name);
     Features features = features_of(
-        scene, geometry, tables, settings.method, settings.splits > 1 ? settings.split_depth : 0,
-        settings.sobol);
+        scene, geometry, tables, media, settings.method,
+        settings.splits > 1 ? settings.split_depth : 0, settings.sobol);
     result.times.normalise = watch.lap();
     const Bvh bvh = build_bvh(geometry.positions);
     result.times.bvh_build = watch.lap();
@@ -180,10 +186,11 @@ RenderResult render(
     // for memory together.
     if (device.info.is_cpu && bvh.nodes.size() >= stream_nodes)
         features.rays_per_item = stream_rays;
-    const SceneBuffers buffers(device, scene, geometry, bvh, tables);
+    const SceneBuffers buffers(device, scene, geometry, bvh, tables, media);
     result.times.upload = watch.lap();
 
-    const RenderParams params = scene_params(scene, geometry, tables, settings);
+    RenderParams params = scene_params(scene, geometry, tables, settings);
+    params.camera_media = media_at_camera(scene, geometry, media, params);
     const cl::Program program = build_program(
         device, assemble_source(features.defines(), QueueManager::kernel_files(features)),
         &result.program);

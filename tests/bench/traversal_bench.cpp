@@ -42,7 +42,7 @@ INLINE void stream_rays(
     do {
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
         }
         stream_step(&stream, nodes, blocks, any);
         for (int k = 0; k < stream.ended; ++k) {
@@ -62,7 +62,7 @@ kernel void closest(
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
-        hits[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+        hits[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
         return;
     }
     stream_rays(count, rays, nodes, blocks, hits, i, 0);

@@ -25,7 +25,7 @@ kernel void closest(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
-    out[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+    out[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
 }
 
 kernel void blocked(

@@ -31,7 +31,7 @@ void trace(
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
             if (r[6] < 0.0f) continue;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
         }
         stream_step(&stream, nodes, blocks, any);
         for (int k = 0; k < stream.ended; ++k) out[stream_ended(&stream, k)->item] = stream_ended(&stream, k)->hit;
@@ -57,7 +57,7 @@ kernel void alone(
     if (i >= count) return;
     global const float* r = rays + 8 * i;
     if (r[6] < 0.0f) return;
-    out[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+    out[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
 }
 )",
         "#define RAYS_PER_ITEM 50\n");

@@ -56,6 +56,19 @@ TEST_F(RenderCommand, NamesTheBiasOfADepthCut) {
     EXPECT_NE(read_exr(path("d.exr")).metadata.at("wavepath.bias").find("2"), std::string::npos);
 }
 
+TEST_F(RenderCommand, NamesTheMethodsOfMediaWhereThereAreMedia) {
+    const std::string slab = WAVEPATH_SOURCE_DIR "/scenes/slab/scene.gltf";
+    const std::string tiny = " --size 4x4 --spp 1 --env-radiance 1,1,1 --direction uniform";
+    run("render " + slab + tiny + " -o " + path("m.exr") + " --json " + path("m.json"));
+    const auto settings = json("m.json")["settings"];
+    EXPECT_EQ(settings["distance"], "exponential");
+    EXPECT_EQ(settings["direction"], "uniform");
+    EXPECT_EQ(
+        nlohmann::json::parse(read_exr(path("m.exr")).metadata.at("wavepath.settings")), settings);
+    run("render " + cornell_box + tiny + " -o " + path("n.exr") + " --json " + path("n.json"));
+    EXPECT_FALSE(json("n.json")["settings"].contains("direction"));
+}
+
 TEST_F(RenderCommand, StopsAtTheErrorAskedAndNamesItsBias) {
     const Outcome outcome =
         run("render " + cornell_box + " --size 16x16 --pool 256 --target-error 0.2 --quiet -o " +
