@@ -4,7 +4,9 @@
 #pragma once
 
 #include "geometry/simd.cl"
+#include "geometry/surface_texture.cl"
 #include "geometry/triangle.cl"
+#include "shared/features.h"
 
 typedef struct {
     float t;        // in lengths of the ray's direction
@@ -90,7 +92,8 @@ intersect_node(global const BvhNode* node, const SlabRay* ray, const float t_max
 
 // Keeps the closest of the block's hits. At equal distance the lowest id wins, so that the order of
 // the tree decides nothing.
-INLINE void closest_in_block(global const TriangleBlock* block, const ShearedRay* ray, Hit* hit) {
+INLINE void closest_in_block(
+    global const TriangleBlock* block, const ShearedRay* ray, const Cover* cover, Hit* hit) {
     float8 t, u, v;
     uint lanes = lane_mask(intersect_block(block, ray, hit->t, &t, &u, &v));
     if (lanes == 0) return;
@@ -101,8 +104,12 @@ INLINE void closest_in_block(global const TriangleBlock* block, const ShearedRay
     do {
         const uint lane = 31u - clz(lanes);
         lanes ^= 1u << lane;
-        const int primitive = (int)block->primitives[lane];
+        const uint entry = block->primitives[lane];
+        const int primitive = (int)(HAS_ALPHA ? entry & ~BVH_HOLES : entry);
         if (ts[lane] < hit->t || (ts[lane] == hit->t && primitive < hit->primitive)) {
+            if (HAS_ALPHA && (entry & BVH_HOLES) != 0 &&
+                !stops_ray(cover, primitive, us[lane], vs[lane]))
+                continue;
             hit->t = ts[lane];
             hit->u = us[lane];
             hit->v = vs[lane];
@@ -112,14 +119,31 @@ INLINE void closest_in_block(global const TriangleBlock* block, const ShearedRay
 }
 
 INLINE int any_in_block(
-    global const TriangleBlock* block, const ShearedRay* ray, const float t_max) {
+    global const TriangleBlock* block,
+    const ShearedRay* ray,
+    const Cover* cover,
+    const float t_max) {
     float8 t, u, v;
-    return lane_mask(intersect_block(block, ray, t_max, &t, &u, &v) & (t < t_max)) != 0;
+    uint lanes = lane_mask(intersect_block(block, ray, t_max, &t, &u, &v) & (t < t_max));
+    if (!HAS_ALPHA || lanes == 0) return lanes != 0;
+    float us[8], vs[8];
+    vstore8(u, 0, us);
+    vstore8(v, 0, vs);
+    while (lanes != 0) {
+        const uint lane = 31u - clz(lanes);
+        lanes ^= 1u << lane;
+        const uint entry = block->primitives[lane];
+        if ((entry & BVH_HOLES) == 0 ||
+            stops_ray(cover, (int)(entry & ~BVH_HOLES), us[lane], vs[lane]))
+            return 1;
+    }
+    return 0;
 }
 
-// The closest triangle in (0, t_max): the nearest child is entered, the others wait with their
-// distances and are dropped when a hit has come nearer. Not inlined: PoCL would give every
-// work-item of a group a stack of its own, where one serves all in turn and stays in the cache.
+// The closest triangle in (0, t_max) that stops the ray: the nearest child is entered, the others
+// wait with their distances and are dropped when a hit has come nearer. Not inlined: PoCL would
+// give every work-item of a group a stack of its own, where one serves all in turn and stays in the
+// cache.
 Hit closest_hit(
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
@@ -129,7 +153,8 @@ Hit closest_hit(
     const float dx,
     const float dy,
     const float dz,
-    const float t_max) {
+    const float t_max,
+    const Cover* cover) {
     const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
     Hit hit = {end_of_ray(ox, oy, oz, dx, dy, dz, t_max), 0.0f, 0.0f, -1};
@@ -140,7 +165,7 @@ Hit closest_hit(
     for (;;) {
         uint lanes = 0;
         if (current & BVH_LEAF) {
-            closest_in_block(blocks + (current & ~BVH_LEAF), &sheared, &hit);
+            closest_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, &hit);
         } else {
             float8 t_near;
             lanes = lane_mask(intersect_node(nodes + current, &slabs, hit.t, &t_near));
@@ -176,7 +201,8 @@ Hit closest_hit(
     }
 }
 
-// 1 if a triangle lies in (0, t_max). Any order of the children will do; not inlined, as above.
+// 1 if a triangle lies in (0, t_max) and stops the ray. Any order of the children will do; not
+// inlined, as above.
 int any_hit(
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
@@ -186,7 +212,8 @@ int any_hit(
     const float dx,
     const float dy,
     const float dz,
-    const float t_max) {
+    const float t_max,
+    const Cover* cover) {
     const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
     const float end = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
@@ -195,7 +222,7 @@ int any_hit(
     uint current = 0;
     for (;;) {
         if (current & BVH_LEAF) {
-            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, end)) return 1;
+            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, end)) return 1;
         } else {
             float8 t_near;
             uint lanes = lane_mask(intersect_node(nodes + current, &slabs, end, &t_near));

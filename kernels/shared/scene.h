@@ -24,11 +24,12 @@ typedef struct {
 } DeviceMaterial;
 SHARED_SIZE(DeviceMaterial, 64);
 
-// A triangle is TRIANGLE_FLOATS floats in scene order: these, then nine of normals and nine of
-// colours if the scene has any (shared/features.h).
-#define TRIANGLE_MATERIAL 0  // (uint bits)
-#define TRIANGLE_LIGHT 1     // (uint bits) row of the light table, or NO_LIGHT
-#define TRIANGLE_CORNERS 2   // 3 x (x, y, z)
+// A triangle is TRIANGLE_FLOATS floats in scene order: these, then what the scene's vertices have
+// (geometry/attributes.cl).
+#define TRIANGLE_MATERIAL 0    // (uint bits)
+#define TRIANGLE_LIGHT 1       // (uint bits) row of the light table, or NO_LIGHT
+#define TRIANGLE_CORNERS 2     // 3 x (x, y, z)
+#define TRIANGLE_BITANGENT 11  // bitangent = this (1 or -1) * cross(normal, tangent)
 #define TRIANGLE_ATTRIBUTES 12
 #define NO_LIGHT 0xFFFFFFFFu
 

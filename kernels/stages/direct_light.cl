@@ -1,13 +1,14 @@
 // Chooses a point on a light for every path at a surface and leaves the connection to
 // `occlusion` (notes 5, directRadianceEstimator, with the f_r that the notes leave out).
 //
-// reads: rays, hits, surfaces, throughputs, ids, scene, lights
+// reads: rays, hits, surfaces, throughputs, ids, scene, lights, textures
 //
 // writes: shadows
 //
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "geometry/surface_texture.cl"
 #include "lights/area_light.cl"
 #include "lights/environment.cl"
 #include "lights/punctual.cl"
@@ -20,6 +21,7 @@ kernel void direct_light(
     global const DeviceMaterial* restrict materials,
     global const DeviceLight* restrict lights,
     global const EnvironmentEntry* restrict environment,
+    TEXTURE_PARAMETERS,
     global const float* restrict rays,
     global const float* restrict hits,
     global const float* restrict surfaces,
@@ -55,8 +57,17 @@ kernel void direct_light(
     s.pdf_w = PDF_CERTAIN;
     if (HAS_PUNCTUAL_LIGHTS) s = punctual_sample(light, p);
     if (HAS_AREA_LIGHTS) {
-        const LightSample area = area_light_sample(triangles, light, p, unit_pair(point));
+        LightSample area = area_light_sample(triangles, light, p, unit_pair(point));
         const int is_area = light->kind == LIGHT_TRIANGLE;
+        if ((HAS_EMISSION_TEXTURES || HAS_ALPHA) && is_area) {
+            global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * light->primitive;
+            const Sample2 b = sample_triangle(unit_pair(point));
+            if (HAS_EMISSION_TEXTURES)
+                area.radiance =
+                    mul3(area.radiance, emission_on_triangle(TEXTURES, triangle, b.u, b.v));
+            if (HAS_ALPHA)
+                area.radiance = scale3(area.radiance, cover_of(TEXTURES, triangle, b.u, b.v));
+        }
         s.p = select3(is_area, area.p, s.p);
         s.wi = select3(is_area, area.wi, s.wi);
         s.radiance = select3(is_area, area.radiance, s.radiance);
@@ -81,10 +92,17 @@ kernel void direct_light(
         to_local(frame, scale3(load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), -1.0f));
     const Vec3 wi = to_local(frame, s.wi);
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
-    value = mul3(value, gltf_eval(surface, wo, wi));
+    Vec3 reflected = gltf_eval(surface, wo, wi);
+    float pdf_w = gltf_pdf_w(surface, wo, wi);
+    if (HAS_SHADING_NORMALS) {
+        const Vec3 mirrored = to_local(frame, mirror3(s.wi, ng));
+        reflected = add3(reflected, gltf_eval(surface, wo, mirrored));
+        pdf_w += gltf_pdf_w(surface, wo, mirrored);
+    }
+    value = mul3(value, reflected);
     if (WEIGH_BOTH) {
         // a sky below the horizon has no density and no radiance either
-        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), gltf_pdf_w(surface, wo, wi));
+        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), pdf_w);
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
     // NaN passes every test, to be found and counted.
@@ -92,7 +110,7 @@ kernel void direct_light(
     // scalar on PoCL.
     float t_max = scattering < params.max_scatterings ? 1.0f : 0.0f;
     t_max *= dot3(ng, s.wi) <= 0.0f ? 0.0f : 1.0f;
-    t_max *= wi.z <= 0.0f ? 0.0f : 1.0f;
+    if (!HAS_SHADING_NORMALS) t_max *= wi.z <= 0.0f ? 0.0f : 1.0f;
     t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
     const Vec3 origin = leave(p, ng);
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);

@@ -64,15 +64,22 @@ kernel void sample_indirect(
         choice = unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
 
     const Frame frame = frame_around(n);
-    const BsdfSample s = gltf_sample(
-        load_surface(materials, surfaces, stride, slot), to_local(frame, scale3(direction, -1.0f)),
-        u, choice);
-    const Vec3 wi = to_world(frame, s.wi);
+    const Surface surface = load_surface(materials, surfaces, stride, slot);
+    const BsdfSample s = gltf_sample(surface, to_local(frame, scale3(direction, -1.0f)), u, choice);
+    Vec3 wi = to_world(frame, s.wi);
+    float pdf_w = s.pdf_w;
+    if (HAS_SHADING_NORMALS) {
+        const Vec3 mirrored = mirror3(wi, ng);
+        const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
+        const float other = gltf_pdf_w(surface, wo, to_local(frame, mirrored));
+        pdf_w = pdf_w == PDF_CERTAIN ? pdf_w : pdf_w + other;
+        wi = select3(dot3(ng, wi) < 0.0f, mirrored, wi);
+    }
     // a direction that is no number makes the throughput none, which accumulate finds
     const float spoilt = 0.0f * (wi.x + wi.y + wi.z);
     const Vec3 weight = vec3(s.weight.x + spoilt, s.weight.y + spoilt, s.weight.z + spoilt);
     const Vec3 throughput = mul3(carried, weight);
-    // A direction on the far side of the face would leak light through it: it counts as absorbed.
+    // A direction along the face would leak light through it: it counts as absorbed.
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= s.wi.z <= 0.0f ? 0.0f : 1.0f;
     goes_on *= dot3(ng, wi) <= 0.0f ? 0.0f : 1.0f;
@@ -84,6 +91,6 @@ kernel void sample_indirect(
         leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), ng));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
-    PLANE(throughputs, THROUGHPUT_PDF)[slot] = s.pdf_w;
+    PLANE(throughputs, THROUGHPUT_PDF)[slot] = pdf_w;
     PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
 }

@@ -5,6 +5,7 @@
 #include "scene/bvh_builder.h"
 #include "scene/light_tables.h"
 #include "scene/normalise.h"
+#include "scene/texture_tables.h"
 #include "shared/scene.h"
 
 namespace wavepath {
@@ -15,7 +16,8 @@ struct SceneBuffers {
         const Scene& scene,
         const NormalisedScene& geometry,
         const Bvh& bvh,
-        const LightTables& tables);
+        const LightTables& tables,
+        const TextureTables& texture_tables);
 
     DeviceArray<BvhNode> nodes;
     DeviceArray<TriangleBlock> blocks;
@@ -24,7 +26,19 @@ struct SceneBuffers {
     DeviceArray<DeviceLight> lights;
     DeviceArray<EnvironmentEntry> environment;
 
+    DeviceArray<DeviceTexture> textures;  // TEXTURE_USES a material
+    std::array<DeviceArray<cl_uint>, TEXTURE_MOST_PAGES> texels;
+
     std::size_t bytes() const;
+    std::size_t texture_bytes() const;  // of which textures and texels
+
+  private:
+    // From word `first` of all pages on.
+    void write_texels(
+        const Device& device,
+        uint64_t page_words,
+        uint64_t first,
+        const std::vector<cl_uint>& words) const;
 };
 
 }  // namespace wavepath

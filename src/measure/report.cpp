@@ -20,6 +20,14 @@ uint64_t peak_host_memory() {
     return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+ordered_json image_reports(const Scene& scene) {
+    ordered_json images = ordered_json::array();
+    for (const TextureImage& image : scene.images)
+        images.push_back(
+            {{"width", image.width}, {"height", image.height}, {"bits", image.wide ? 16 : 8}});
+    return images;
+}
+
 ordered_json settings_report(const RenderSettings& settings) {
     return {
         {"width", settings.width},
@@ -87,6 +95,8 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
           {"triangles", result.triangles},
           {"zero_area_triangles", result.dropped_triangles},
           {"materials", job.scene.materials.size()},
+          {"images", image_reports(job.scene)},
+          {"texture_pages", result.texture_pages},
           {"lights", result.lights},
           {"bvh_nodes", result.bvh_nodes},
           {"bvh_blocks", result.bvh_blocks}}},
@@ -116,6 +126,7 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
         {"memory_bytes",
          {{"host_peak", peak_host_memory()},
           {"device_scene", result.scene_bytes},
+          {"device_textures", result.texture_bytes},
           {"device_pool", result.pool_bytes},
           {"device_film", result.film_bytes}}},
         {"warnings", result.warnings},

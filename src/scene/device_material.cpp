@@ -9,7 +9,8 @@ namespace {
 float dielectric_f0(const Material& material, std::size_t channel) {
     if (material.ior == 0) return 1;
     const float ratio = (material.ior - 1) / (material.ior + 1);
-    return std::min(ratio * ratio * material.specular_color[channel], 1.0F);
+    const float f0 = ratio * ratio * material.specular_color[channel];
+    return material.has(TEXTURE_SPECULAR_COLOR) ? f0 : std::min(f0, 1.0F);
 }
 
 }  // namespace

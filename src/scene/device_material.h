@@ -6,7 +6,7 @@
 namespace wavepath {
 
 // F0 of the dielectric: min(((ior - 1) / (ior + 1))^2 * specularColor, 1); 1 for ior 0
-// (KHR_materials_ior, _specular).
+// (KHR_materials_ior, _specular). Where a texture tints it, the minimum is left to apply_textures.
 DeviceMaterial device_material(const Material& material);
 
 // Whether it has a lobe besides the Lambertian.

@@ -52,6 +52,24 @@ bool is_vertex_component(int type) {
            type == TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
+// 0 for the types that pad their columns: no attribute has them.
+std::size_t component_count(int type) {
+    switch (type) {
+        case TINYGLTF_TYPE_SCALAR:
+            return 1;
+        case TINYGLTF_TYPE_VEC2:
+            return 2;
+        case TINYGLTF_TYPE_VEC3:
+            return 3;
+        case TINYGLTF_TYPE_VEC4:
+            return 4;
+        case TINYGLTF_TYPE_MAT4:
+            return 16;
+        default:
+            return 0;
+    }
+}
+
 std::uint32_t load_index(const unsigned char* bytes, int component_type) {
     switch (component_type) {
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
@@ -198,10 +216,14 @@ std::vector<T> read_rows(
 
 }  // namespace
 
-std::vector<float> read_vec3(const GltfFile& file, int accessor_index, std::string_view where) {
+std::vector<float> read_vectors(
+    const GltfFile& file, int accessor_index, std::size_t width, std::string_view where) {
     const auto& accessor = file.at(file.model.accessors, accessor_index, "accessor", where);
-    if (accessor.type != TINYGLTF_TYPE_VEC3 && accessor.type != TINYGLTF_TYPE_VEC4)
-        file.fail(where, "accessor {} is no vector of 3; export again", accessor_index);
+    const std::size_t components = component_count(accessor.type);
+    if (components < width || (width <= 4 && components > 4))
+        file.fail(
+            where, "accessor {} does not hold {} numbers a row; export again", accessor_index,
+            width);
     if (!is_vertex_component(accessor.componentType))
         file.fail(
             where,
@@ -209,10 +231,10 @@ std::vector<float> read_vec3(const GltfFile& file, int accessor_index, std::stri
             accessor_index, accessor.componentType);
 
     const std::size_t size = component_size(accessor.componentType);
-    const std::size_t row_size = size * (accessor.type == TINYGLTF_TYPE_VEC3 ? 3 : 4);
     std::vector<float> values = read_rows<float>(
-        file, accessor, row_size, 3, where, [&](const unsigned char* bytes, float* row) {
-            for (std::size_t i = 0; i < 3; ++i)
+        file, accessor, size * components, width, where,
+        [&](const unsigned char* bytes, float* row) {
+            for (std::size_t i = 0; i < width; ++i)
                 row[i] = load_float(bytes + i * size, accessor.componentType, accessor.normalized);
         });
 
@@ -221,7 +243,7 @@ std::vector<float> read_vec3(const GltfFile& file, int accessor_index, std::stri
     if (broken != values.end())
         file.fail(
             where, "row {} is not finite; repair the mesh and export again",
-            (broken - values.begin()) / 3);
+            static_cast<std::size_t>(broken - values.begin()) / width);
     return values;
 }
 

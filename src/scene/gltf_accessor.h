@@ -10,9 +10,11 @@
 
 namespace wavepath {
 
-// Three numbers a row of a VEC3 (of a VEC4: its first three), finite; normalized integers as
-// fractions. `where` names what the accessor is for: mesh 3 "lamp", POSITION.
-std::vector<float> read_vec3(const GltfFile& file, int accessor, std::string_view where);
+// `width` numbers a row, finite; normalized integers as fractions. A vector may have more
+// components than `width` (1 .. 4), of which the first are read; 16 reads a MAT4, column by column.
+// `where` names what the accessor is for: mesh 3 "lamp", POSITION.
+std::vector<float> read_vectors(
+    const GltfFile& file, int accessor, std::size_t width, std::string_view where);
 
 // Indices, each below `vertex_count` and none the primitive restart value, which glTF forbids.
 std::vector<std::uint32_t> read_indices(

@@ -16,9 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // Sorted.
-constexpr std::array<std::string_view, 5> supported_extensions{
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 8> supported_extensions{
+    "EXT_texture_webp",      "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",     "KHR_materials_specular", "KHR_materials_unlit",
+    "KHR_mesh_quantization", "KHR_texture_transform"};
 
 // Magic, version, length; length and type of the JSON chunk.
 constexpr std::size_t glb_header_size = 20;
@@ -93,9 +94,19 @@ bool is_file_beside_scene(const std::string& path, void*) {
     return fs::path(path).is_absolute() && fs::is_regular_file(path, status);
 }
 
-// tinygltf would decode every image while it parses, and fail for one that it cannot decode.
+// tinygltf would decode every image while it parses, and fail for one that it cannot decode. Those
+// in buffer views are left there: their range has not been checked yet.
 bool leave_image_encoded(
-    tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+    tinygltf::Image* image,
+    int,
+    std::string*,
+    std::string*,
+    int,
+    int,
+    const unsigned char* bytes,
+    int size,
+    void*) {
+    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
     return true;
 }
 

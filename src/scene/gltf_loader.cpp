@@ -5,6 +5,7 @@
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_texture.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -35,9 +36,8 @@ class MeshInstancer {
 
     Range primitives_of(int mesh) {
         if (const auto known = read_.find(mesh); known != read_.end()) return known->second;
-        const auto default_material = static_cast<std::uint32_t>(scene_.materials.size() - 1);
         const auto first = static_cast<std::uint32_t>(scene_.primitives.size());
-        for (Primitive& primitive : read_mesh(file_, mesh, default_material, ignored_))
+        for (Primitive& primitive : read_mesh(file_, mesh, scene_.materials, ignored_))
             scene_.primitives.push_back(std::move(primitive));
         return read_[mesh] = {first, static_cast<std::uint32_t>(scene_.primitives.size())};
     }
@@ -49,12 +49,6 @@ class MeshInstancer {
 };
 
 void note_ignored_features(const tinygltf::Model& model, Ignored& ignored) {
-    ignored.add("textures", "rendered with the material factors alone", model.textures.size());
-    ignored.add(
-        "materials with alpha", "rendered opaque",
-        static_cast<std::size_t>(std::ranges::count_if(model.materials, [](const auto& material) {
-            return material.alphaMode == "MASK" || material.alphaMode == "BLEND";
-        })));
     ignored.add("skins", "rendered in the rest pose", model.skins.size());
     ignored.add("animations", "rendered at rest", model.animations.size());
 }
@@ -81,7 +75,7 @@ std::vector<std::string> ignored_extensions(const tinygltf::Model& model) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path) {
+Scene load_gltf(const std::filesystem::path& path, uint64_t most_texels) {
     const GltfFile file = read_gltf_file(path);
     Scene scene;
     scene.name = path.stem().string();
@@ -98,6 +92,7 @@ Scene load_gltf(const std::filesystem::path& path) {
     if (scene.triangle_count() == 0)
         file.fail("default scene", "holds no triangles; add a mesh to it or choose another file");
 
+    load_images(file, scene, most_texels);
     drop_default_material_if_unused(scene);
     scene.ignored = ignored.lines();
     std::ranges::move(ignored_extensions(file.model), std::back_inserter(scene.ignored));

@@ -1,6 +1,7 @@
 #include "scene/gltf_mesh.h"
 
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_attributes.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -92,7 +93,7 @@ class PrimitiveReader {
         const auto found = source_.attributes.find(name);
         if (found == source_.attributes.end()) return std::nullopt;
         const std::string where = fmt::format("{}, {}", where_, name);
-        std::vector<float> values = read_vec3(file_, found->second, where);
+        std::vector<float> values = read_vectors(file_, found->second, 3, where);
         if (vertex_count && values.size() / 3 != *vertex_count)
             file_.fail(
                 where, "has {} rows, POSITION has {}; repair the mesh and export again",
@@ -139,7 +140,8 @@ bool makes_triangles(int mode) {
 }  // namespace
 
 std::vector<Primitive> read_mesh(
-    const GltfFile& file, int index, std::uint32_t default_material, Ignored& ignored) {
+    const GltfFile& file, int index, const std::vector<Material>& materials, Ignored& ignored) {
+    const auto default_material = static_cast<std::uint32_t>(materials.size() - 1);
     const tinygltf::Mesh& mesh = file.model.meshes[static_cast<std::size_t>(index)];
     std::vector<Primitive> primitives;
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
@@ -158,6 +160,8 @@ std::vector<Primitive> read_mesh(
         }
         Primitive primitive = PrimitiveReader(file, source, where).read(default_material);
         if (primitive.indices.empty()) continue;
+        read_surface_attributes(
+            file, source, materials[primitive.material], where, primitive, ignored);
         ignored.add("morph targets", "rendered in the base shape", source.targets.size());
         primitive.name = mesh.name.empty() ? label("mesh", index, "") : mesh.name;
         primitives.push_back(std::move(primitive));

@@ -15,10 +15,6 @@ namespace {
 // Twice the least area that counts: the square of a smaller normal leaves single precision.
 constexpr double smallest_cross = 1e-18;
 
-double dot(const Vec3d& a, const Vec3d& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 struct Bounds {
     Vec3d low{
         std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
@@ -35,36 +31,12 @@ struct Bounds {
     }
 };
 
-Vec3d transform_point(const Matrix4& m, const Vec3d& p) {
-    Vec3d r;
-    for (std::size_t k = 0; k < 3; ++k)
-        r[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
-    return r;
-}
-
-// By the cofactors: the inverse transpose up to a factor, which also serves flattened nodes. The
-// factor's sign is the determinant's.
-Vec3d transform_normal(const Matrix4& m, const Vec3d& n) {
-    const Vec3d columns[3] = {
-        cross(axis(m, 1), axis(m, 2)), cross(axis(m, 2), axis(m, 0)),
-        cross(axis(m, 0), axis(m, 1))};
-    const double sign = dot(axis(m, 0), columns[0]) < 0 ? -1 : 1;
-    Vec3d r{0, 0, 0};
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t k = 0; k < 3; ++k) r[k] += sign * n[c] * columns[c][k];
-    return normalized(r);
-}
-
-Vec3d vertex(const std::vector<float>& values, uint32_t index) {
-    return {values[3U * index], values[3U * index + 1], values[3U * index + 2]};
-}
-
 Bounds world_bounds(const Scene& scene) {
     Bounds bounds;
     for (const Instance& instance : scene.instances) {
         const Primitive& primitive = scene.primitives[instance.primitive];
         for (const uint32_t index : primitive.indices)
-            bounds.extend(transform_point(instance.to_world, vertex(primitive.positions, index)));
+            bounds.extend(transform_point(instance.to_world, vec3_at(primitive.positions, index)));
     }
     return bounds;
 }
@@ -80,23 +52,78 @@ void append(std::vector<float>& to, const Vec3d& v) {
     for (const double x : v) to.push_back(static_cast<float>(x));
 }
 
+// What some triangle of the scene has, and so all of them.
+struct Attributes {
+    bool normals = false, colors = false, tangents = false, alphas = false;
+    std::array<bool, 2> uvs{};
+
+    void add(const Primitive& primitive) {
+        normals = normals || !primitive.normals.empty();
+        colors = colors || !primitive.colors.empty();
+        tangents = tangents || !primitive.tangents.empty();
+        alphas = alphas || !primitive.alphas.empty();
+        for (std::size_t k = 0; k < 2; ++k) uvs[k] = uvs[k] || !primitive.uvs[k].empty();
+    }
+};
+
+// A corner of a triangle: its vertex, and where it stands in Primitive::indices.
+struct Corner {
+    uint32_t vertex;
+    std::size_t place;
+};
+
+// Appends `width` floats of `values` for each corner, of its vertex; `missing` where there are
+// none.
+void append_floats(
+    std::vector<float>& to,
+    const std::vector<float>& values,
+    std::size_t width,
+    const std::array<Corner, 3>& corners,
+    float missing) {
+    for (const Corner& corner : corners)
+        for (std::size_t k = 0; k < width; ++k)
+            to.push_back(values.empty() ? missing : values[width * corner.vertex + k]);
+}
+
+Vec3d transform_direction(const Matrix4& m, const Vec3d& d) {
+    Vec3d r;
+    for (std::size_t k = 0; k < 3; ++k) r[k] = m[k] * d[0] + m[4 + k] * d[1] + m[8 + k] * d[2];
+    return normalized(r);
+}
+
+// A mirroring node turns bitangents round against normals and tangents.
+void append_tangents(
+    NormalisedScene& out,
+    const Primitive& primitive,
+    const Matrix4& to_world,
+    bool mirrored,
+    const std::array<Corner, 3>& corners) {
+    for (const Corner& corner : corners) {
+        const float* t =
+            primitive.tangents.empty() ? nullptr : &primitive.tangents[4 * corner.place];
+        append(out.tangents, t ? transform_direction(to_world, {t[0], t[1], t[2]}) : Vec3d{});
+    }
+    const float sign =
+        primitive.tangents.empty() ? 1 : primitive.tangents[4 * corners[0].place + 3];
+    out.bitangents.push_back(mirrored ? -sign : sign);
+}
+
 // Adds the triangles of one instance; corners are rounded to float first, as the device will see
 // them.
 void append_instance(
     NormalisedScene& out,
     const Primitive& primitive,
     const Matrix4& to_world,
-    bool normals,
-    bool colors) {
+    const Attributes& attributes) {
     const bool mirrored = dot(axis(to_world, 0), cross(axis(to_world, 1), axis(to_world, 2))) < 0;
     for (std::size_t t = 0; t + 2 < primitive.indices.size(); t += 3) {
-        std::array<uint32_t, 3> corners{
-            primitive.indices[t], primitive.indices[t + 1], primitive.indices[t + 2]};
+        std::array<Corner, 3> corners;
+        for (std::size_t c = 0; c < 3; ++c) corners[c] = {primitive.indices[t + c], t + c};
         if (mirrored) std::swap(corners[1], corners[2]);
         std::array<Vec3d, 3> p;
         for (std::size_t c = 0; c < 3; ++c) {
             p[c] = out.to_normalised(
-                transform_point(to_world, vertex(primitive.positions, corners[c])));
+                transform_point(to_world, vec3_at(primitive.positions, corners[c].vertex)));
             for (double& x : p[c]) x = static_cast<float>(x);
         }
         const Vec3d face = face_cross(p);
@@ -106,18 +133,18 @@ void append_instance(
         }
         for (const Vec3d& corner : p) append(out.positions, corner);
         out.materials.push_back(primitive.material);
-        if (normals) {
-            for (const uint32_t c : corners)
+        if (attributes.normals)
+            for (const Corner& c : corners)
                 append(
-                    out.normals, primitive.normals.empty()
-                                     ? normalized(face)
-                                     : transform_normal(to_world, vertex(primitive.normals, c)));
-        }
-        if (colors)
-            for (const uint32_t c : corners)
-                append(
-                    out.colors,
-                    primitive.colors.empty() ? Vec3d{1, 1, 1} : vertex(primitive.colors, c));
+                    out.normals,
+                    primitive.normals.empty()
+                        ? normalized(face)
+                        : transform_normal(to_world, vec3_at(primitive.normals, c.vertex)));
+        if (attributes.colors) append_floats(out.colors, primitive.colors, 3, corners, 1);
+        for (std::size_t k = 0; k < 2; ++k)
+            if (attributes.uvs[k]) append_floats(out.uvs[k], primitive.uvs[k], 2, corners, 0);
+        if (attributes.tangents) append_tangents(out, primitive, to_world, mirrored, corners);
+        if (attributes.alphas) append_floats(out.alphas, primitive.alphas, 1, corners, 1);
     }
 }
 
@@ -156,15 +183,11 @@ Extent extent_of(const Scene& scene) {
 NormalisedScene normalise(const Scene& scene) {
     NormalisedScene out;
     out.extent = extent_of(scene);
-    bool normals = false;
-    bool colors = false;
-    for (const Instance& instance : scene.instances) {
-        normals = normals || !scene.primitives[instance.primitive].normals.empty();
-        colors = colors || !scene.primitives[instance.primitive].colors.empty();
-    }
+    Attributes attributes;
     for (const Instance& instance : scene.instances)
-        append_instance(
-            out, scene.primitives[instance.primitive], instance.to_world, normals, colors);
+        attributes.add(scene.primitives[instance.primitive]);
+    for (const Instance& instance : scene.instances)
+        append_instance(out, scene.primitives[instance.primitive], instance.to_world, attributes);
     if (out.materials.empty())
         throw Error("{}: every triangle has zero area; there is nothing to render", scene.name);
     for (const PunctualLight& light : scene.lights)

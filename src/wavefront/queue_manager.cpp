@@ -24,6 +24,7 @@ std::optional<StageType> stage_if(
 std::vector<std::string> QueueManager::kernel_files(const Features& features) {
     std::vector<std::string> names{"assign_units", "generate_rays", "intersect", "scatter_queue",
                                    "move_paths",   "interact",      "first_hit"};
+    if (features.textures) names.emplace_back("apply_textures");
     if (features.environment) names.emplace_back("shade_miss");
     if (features.area_lights) names.emplace_back("shade_emission");
     if (features.sample_lights) names.insert(names.end(), {"direct_light", "occlusion"});
@@ -59,6 +60,8 @@ QueueManager::QueueManager(
       generate_rays_(program, "generate_rays", groups.streaming, profile),
       intersect_(program, "intersect", features.rays_per_item > 1 ? 1 : groups.traversal, profile),
       interact_(program, "interact", groups.streaming, profile),
+      apply_textures_(stage_if<decltype(apply_textures_)::value_type>(
+          features.textures, program, "apply_textures", groups.streaming, profile)),
       first_hit_(program, "first_hit", groups.streaming, profile),
       shade_miss_(stage_if<decltype(shade_miss_)::value_type>(
           features.environment, program, "shade_miss", groups.streaming, profile)),
@@ -96,12 +99,18 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
             pool_.throughputs, pool_.radiances);
         const uint32_t ray_items = (slots + features_.rays_per_item - 1) / features_.rays_per_item;
         intersect_.launch(
-            device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, pool_.rays,
-            pool_.hits);
+            device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
+            scene_.textures, scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3],
+            pool_.rays, pool_.ids, pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
         interact_.launch(
             device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
             pool_.hits, pool_.surfaces);
+        if (apply_textures_)
+            apply_textures_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.textures,
+                scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3], pool_.rays,
+                pool_.hits, pool_.surfaces);
         first_hit_.launch(
             device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
         if (shade_miss_)
@@ -110,16 +119,21 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
                 pool_.throughputs, pool_.radiances);
         if (shade_emission_)
             shade_emission_->launch(
-                device_, slots, params_, slots, scene_.materials, scene_.lights, pool_.rays,
-                pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
+                scene_.textures, scene_.texels[0], scene_.texels[1], scene_.texels[2],
+                scene_.texels[3], pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs,
+                pool_.radiances);
         if (direct_light_) {
             direct_light_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
-                scene_.environment, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs,
-                pool_.ids, pool_.shadows);
+                scene_.environment, scene_.textures, scene_.texels[0], scene_.texels[1],
+                scene_.texels[2], scene_.texels[3], pool_.rays, pool_.hits, pool_.surfaces,
+                pool_.throughputs, pool_.ids, pool_.shadows);
             occlusion_->launch(
                 device_, (slots + features_.rays_per_item - 1) / features_.rays_per_item, params_,
-                slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
+                slots, scene_.nodes, scene_.blocks, scene_.triangles, scene_.textures,
+                scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3],
+                pool_.shadows, pool_.ids, pool_.radiances, pool_.fates);
         }
         sample_indirect_.launch(
             device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays,

@@ -73,6 +73,7 @@ class QueueManager {
     using Materials = Array<DeviceMaterial>;
     using Lights = Array<DeviceLight>;
     using Map = Array<EnvironmentEntry>;
+    using Textures = Array<DeviceTexture>;
     using Nodes = Array<BvhNode>;
     using Blocks = Array<TriangleBlock>;
     using Fates = Array<cl_uchar>;
@@ -112,11 +113,55 @@ class QueueManager {
 
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats> generate_rays_;
-    Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats> intersect_;
+    // Textures and four pages of texels are TEXTURE_PARAMETERS of materials/texture.cl.
+    Stage<
+        Params,
+        cl_uint,
+        Nodes,
+        Blocks,
+        Floats,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
+        Floats,
+        Uints,
+        Floats>
+        intersect_;
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Materials,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
+        Floats,
+        Floats,
+        Floats>>
+        apply_textures_;
     Stage<Params, cl_uint, Floats, Floats, Uints, Floats> first_hit_;
     std::optional<Stage<Params, cl_uint, Map, Floats, Floats, Floats, Floats>> shade_miss_;
-    std::optional<Stage<Params, cl_uint, Materials, Lights, Floats, Floats, Floats, Floats, Floats>>
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Materials,
+        Lights,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats>>
         shade_emission_;
     std::optional<Stage<
         Params,
@@ -125,6 +170,11 @@ class QueueManager {
         Materials,
         Lights,
         Map,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
         Floats,
         Floats,
         Floats,
@@ -132,7 +182,22 @@ class QueueManager {
         Uints,
         Floats>>
         direct_light_;
-    std::optional<Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Fates>> occlusion_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Nodes,
+        Blocks,
+        Floats,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
+        Floats,
+        Uints,
+        Floats,
+        Fates>>
+        occlusion_;
     Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats>
         sample_indirect_;
     Stage<Params, cl_uint, Uints, Floats, Floats, Fates> roulette_compact_;

@@ -81,6 +81,13 @@ RenderParams scene_params(
     return params;
 }
 
+std::vector<bool> triangles_with_holes(const Scene& scene, const NormalisedScene& geometry) {
+    std::vector<bool> holes;
+    for (const uint32_t material : geometry.materials)
+        holes.push_back(scene.materials[material].alpha_mode != AlphaMode::opaque);
+    return holes;
+}
+
 // PoCL compiles a kernel at its first launch: one short path through the whole chain, into a film
 // of its own, before the clock starts.
 void warm_up(
@@ -161,17 +168,20 @@ RenderResult render(
     const LightTables tables = build_light_tables(
         scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
     check_lights(scene, geometry, tables, settings.method, result);
+    const TextureTables textures =
+        build_texture_tables(scene, worn_materials(scene, geometry), device.info.max_allocation);
     Features features = features_of(
-        scene, geometry, tables, settings.method, settings.splits > 1 ? settings.split_depth : 0,
-        settings.sobol);
+        scene, geometry, tables, textures, settings.method,
+        settings.splits > 1 ? settings.split_depth : 0, settings.sobol);
     result.times.normalise = watch.lap();
-    const Bvh bvh = build_bvh(geometry.positions);
+    Bvh bvh = build_bvh(geometry.positions);
+    if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
     result.times.bvh_build = watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
     // for memory together.
     if (device.info.is_cpu && bvh.nodes.size() >= stream_nodes)
         features.rays_per_item = stream_rays;
-    const SceneBuffers buffers(device, scene, geometry, bvh, tables);
+    const SceneBuffers buffers(device, scene, geometry, bvh, tables, textures);
     result.times.upload = watch.lap();
 
     const RenderParams params = scene_params(scene, geometry, tables, settings);
@@ -235,6 +245,8 @@ RenderResult render(
     result.bvh_nodes = bvh.nodes.size();
     result.bvh_blocks = bvh.blocks.size();
     result.scene_bytes = buffers.bytes();
+    result.texture_bytes = buffers.texture_bytes();
+    result.texture_pages = textures.pages();
     result.pool_bytes = queues.bytes();
     result.film_bytes = film.bytes();
     return result;

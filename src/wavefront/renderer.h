@@ -55,6 +55,8 @@ struct RenderResult {
     uint64_t iterations = 0;
     std::size_t triangles = 0, dropped_triangles = 0, lights = 0, bvh_nodes = 0, bvh_blocks = 0;
     std::size_t scene_bytes = 0, pool_bytes = 0, film_bytes = 0;  // on the device
+    std::size_t texture_bytes = 0;                                // of scene_bytes
+    uint32_t texture_pages = 0;
     std::vector<std::string> warnings;
     bool interrupted = false;
 };

@@ -22,7 +22,8 @@ kernel void closest(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
-    out[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+    const Cover cover = full_cover();
+    out[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], &cover);
 }
 
 kernel void blocked(
@@ -31,7 +32,8 @@ kernel void blocked(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
-    out[i] = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+    const Cover cover = full_cover();
+    out[i] = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], &cover);
 }
 )");
     return instance;
