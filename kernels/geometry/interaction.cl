@@ -62,6 +62,7 @@ INLINE Surface load_surface(
         s.metallic = PLANE(surfaces, SURFACE_METALLIC)[slot];
         s.specular = PLANE(surfaces, SURFACE_SPECULAR)[slot];
         s.alpha = PLANE(surfaces, SURFACE_ALPHA)[slot];
+        s.transmission = PLANE(surfaces, SURFACE_TRANSMISSION)[slot];
     } else if (HAS_SPECULAR) {
         global const DeviceMaterial* material =
             materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
@@ -69,6 +70,7 @@ INLINE Surface load_surface(
         s.metallic = material->metallic;
         s.specular = material->specular;
         s.alpha = material->alpha;
+        s.transmission = material->transmission;
     }
     return s;
 }

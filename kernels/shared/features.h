@@ -35,6 +35,9 @@
 #ifndef HAS_SPECULAR
 #define HAS_SPECULAR 1  // some material has a microfacet or mirror lobe
 #endif
+#ifndef HAS_TRANSMISSION
+#define HAS_TRANSMISSION 1  // some material lets light through (thin walls)
+#endif
 #ifndef HAS_AREA_LIGHTS
 #define HAS_AREA_LIGHTS 1
 #endif

@@ -51,6 +51,7 @@ enum SurfacePlane {
     SURFACE_F0_R,      // [1] of the dielectric
     SURFACE_F0_G,
     SURFACE_F0_B,
+    SURFACE_TRANSMISSION,  // [1]
     SURFACE_PLANES
 };
 #define SURFACE_PLANES_FLAT SURFACE_N_X

@@ -18,9 +18,10 @@ typedef struct {
     shared_float base_b;
     shared_float f0_b;
     shared_float emission_b;
-    shared_float alpha;        // [1] roughness^2
-    shared_uint double_sided;  // emits from both faces
-    shared_uint padding[3];
+    shared_float alpha;         // [1] roughness^2
+    shared_uint double_sided;   // emits from both faces
+    shared_float transmission;  // [1] share of what enters that goes straight through
+    shared_uint padding[2];
 } DeviceMaterial;
 SHARED_SIZE(DeviceMaterial, 64);
 

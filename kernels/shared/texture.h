@@ -13,6 +13,7 @@ enum TextureUse {
     TEXTURE_EMISSION,            // rgb
     TEXTURE_SPECULAR,            // a: specular
     TEXTURE_SPECULAR_COLOR,      // rgb
+    TEXTURE_TRANSMISSION,        // r: transmission
     TEXTURE_USES
 };
 

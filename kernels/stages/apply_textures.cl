@@ -65,6 +65,9 @@ kernel void apply_textures(
             memory, texture_row(memory, index, TEXTURE_SPECULAR), triangle, u, v);
         const Texel tint = texture_on_triangle(
             memory, texture_row(memory, index, TEXTURE_SPECULAR_COLOR), triangle, u, v);
+        const Texel through = texture_on_triangle(
+            memory, texture_row(memory, index, TEXTURE_TRANSMISSION), triangle, u, v);
+        PLANE(surfaces, SURFACE_TRANSMISSION)[slot] = material->transmission * through.r;
         PLANE(surfaces, SURFACE_METALLIC)[slot] = material->metallic * lobe.b;
         PLANE(surfaces, SURFACE_ALPHA)[slot] = material->alpha * lobe.g * lobe.g;
         PLANE(surfaces, SURFACE_SPECULAR)[slot] = material->specular * weight.a;

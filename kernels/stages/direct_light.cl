@@ -90,29 +90,22 @@ kernel void direct_light(
     const Frame frame = frame_around(n);
     const Vec3 wo =
         to_local(frame, scale3(load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), -1.0f));
-    const Vec3 wi = to_local(frame, s.wi);
+    const Scattered scattered = scatter_towards(surface, frame, ng, wo, s.wi);
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
-    Vec3 reflected = gltf_eval(surface, wo, wi);
-    float pdf_w = gltf_pdf_w(surface, wo, wi);
-    if (HAS_SHADING_NORMALS) {
-        const Vec3 mirrored = to_local(frame, mirror3(s.wi, ng));
-        reflected = add3(reflected, gltf_eval(surface, wo, mirrored));
-        pdf_w += gltf_pdf_w(surface, wo, mirrored);
-    }
-    value = mul3(value, reflected);
+    value = mul3(value, scattered.value);
     if (WEIGH_BOTH) {
         // a sky below the horizon has no density and no radiance either
-        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), pdf_w);
+        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), scattered.pdf_w);
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
     // NaN passes every test, to be found and counted.
     // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay
     // scalar on PoCL.
     float t_max = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    t_max *= dot3(ng, s.wi) <= 0.0f ? 0.0f : 1.0f;
-    if (!HAS_SHADING_NORMALS) t_max *= wi.z <= 0.0f ? 0.0f : 1.0f;
+    const float side = HAS_TRANSMISSION && dot3(ng, s.wi) < 0.0f ? -1.0f : 1.0f;
+    t_max *= side * dot3(ng, s.wi) <= 0.0f ? 0.0f : 1.0f;
     t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
-    const Vec3 origin = leave(p, ng);
+    const Vec3 origin = leave(p, scale3(ng, side));
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, sub3(s.p, origin));
     PLANE(shadows, SHADOW_T_MAX)[slot] = t_max;

@@ -65,15 +65,15 @@ kernel void sample_indirect(
 
     const Frame frame = frame_around(n);
     const Surface surface = load_surface(materials, surfaces, stride, slot);
-    const BsdfSample s = gltf_sample(surface, to_local(frame, scale3(direction, -1.0f)), u, choice);
+    const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
+    const BsdfSample s = gltf_sample(surface, wo, u, choice);
+    const float side = HAS_TRANSMISSION && s.through ? -1.0f : 1.0f;
     Vec3 wi = to_world(frame, s.wi);
     float pdf_w = s.pdf_w;
     if (HAS_SHADING_NORMALS) {
-        const Vec3 mirrored = mirror3(wi, ng);
-        const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
-        const float other = gltf_pdf_w(surface, wo, to_local(frame, mirrored));
-        pdf_w = pdf_w == PDF_CERTAIN ? pdf_w : pdf_w + other;
-        wi = select3(dot3(ng, wi) < 0.0f, mirrored, wi);
+        wi = select3(side * dot3(ng, wi) < 0.0f, mirror3(wi, ng), wi);
+        const float both = scatter_towards(surface, frame, ng, wo, wi).pdf_w;
+        pdf_w = pdf_w == PDF_CERTAIN ? pdf_w : both;
     }
     // a direction that is no number makes the throughput none, which accumulate finds
     const float spoilt = 0.0f * (wi.x + wi.y + wi.z);
@@ -81,14 +81,14 @@ kernel void sample_indirect(
     const Vec3 throughput = mul3(carried, weight);
     // A direction along the face would leak light through it: it counts as absorbed.
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    goes_on *= s.wi.z <= 0.0f ? 0.0f : 1.0f;
-    goes_on *= dot3(ng, wi) <= 0.0f ? 0.0f : 1.0f;
+    goes_on *= side * s.wi.z <= 0.0f ? 0.0f : 1.0f;
+    goes_on *= side * dot3(ng, wi) <= 0.0f ? 0.0f : 1.0f;
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;
     const int continues = goes_on > 0.0f;
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? primitive : HIT_ENDED);
     store3(
         PLANE(rays, RAY_ORIGIN_X), stride, slot,
-        leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), ng));
+        leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), scale3(ng, side)));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = pdf_w;

@@ -29,12 +29,13 @@ DeviceMaterial device_material(const Material& material) {
     d.emission_g = material.emission[1];
     d.emission_b = material.emission[2];
     d.alpha = material.roughness * material.roughness;
+    d.transmission = material.transmission;
     d.double_sided = material.double_sided ? 1 : 0;
     return d;
 }
 
 bool reflects_specularly(const Material& material) {
-    return material.metallic > 0 || material.specular > 0;
+    return material.metallic > 0 || material.specular > 0 || material.transmission > 0;
 }
 
 }  // namespace wavepath

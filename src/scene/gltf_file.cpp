@@ -16,9 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Sorted.
-constexpr std::array<std::string_view, 8> supported_extensions{
+constexpr std::array<std::string_view, 9> supported_extensions{
     "EXT_texture_webp",      "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",     "KHR_materials_specular", "KHR_materials_unlit",
+    "KHR_materials_ior",     "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_unlit",
     "KHR_mesh_quantization", "KHR_texture_transform"};
 
 // Magic, version, length; length and type of the JSON chunk.

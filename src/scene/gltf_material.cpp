@@ -30,6 +30,7 @@ class MaterialReader {
         read_emission(material);
         read_ior(material);
         read_specular(material);
+        read_transmission(material);
         read_alpha(material);
         read_textures(material);
         if (find_extension(source_.extensions, "KHR_materials_unlit")) make_unlit(material);
@@ -82,6 +83,13 @@ class MaterialReader {
             numbers(file_, where_, *extension, "specularColorFactor", {1, 1, 1}), unbounded);
     }
 
+    void read_transmission(Material& material) const {
+        const auto* extension = find_extension(source_.extensions, "KHR_materials_transmission");
+        if (!extension) return;
+        material.transmission = factor(
+            "transmissionFactor", number(file_, where_, *extension, "transmissionFactor", 0), 1);
+    }
+
     void read_alpha(Material& material) const {
         if (source_.alphaMode != "OPAQUE" && source_.alphaMode != "MASK" &&
             source_.alphaMode != "BLEND")
@@ -109,6 +117,9 @@ class MaterialReader {
             reader.read(TEXTURE_SPECULAR, *extension, "specularTexture");
             reader.read(TEXTURE_SPECULAR_COLOR, *extension, "specularColorTexture");
         }
+        if (const auto* extension =
+                find_extension(source_.extensions, "KHR_materials_transmission"))
+            reader.read(TEXTURE_TRANSMISSION, *extension, "transmissionTexture");
     }
 
     // To light a scene a colour that "is not affected by lighting" [KHR_materials_unlit] is one
@@ -121,10 +132,12 @@ class MaterialReader {
         material.base_color = {0, 0, 0};
         material.metallic = 0;
         material.specular = 0;
+        material.transmission = 0;
         material.textures[TEXTURE_METALLIC_ROUGHNESS] = {};
         material.textures[TEXTURE_NORMAL] = {};
         material.textures[TEXTURE_SPECULAR] = {};
         material.textures[TEXTURE_SPECULAR_COLOR] = {};
+        material.textures[TEXTURE_TRANSMISSION] = {};
     }
 
     const GltfFile& file_;

@@ -41,7 +41,8 @@ struct Texture {
 
 enum class AlphaMode { opaque, mask, blend };
 
-// glTF 2.0 metallic-roughness with KHR_materials_ior, _specular, _emissive_strength and _unlit.
+// glTF 2.0 metallic-roughness with KHR_materials_ior, _specular, _transmission (thin walls),
+// _emissive_strength and _unlit.
 struct Material {
     std::string name;
     Rgb base_color{1, 1, 1};  // [1]
@@ -50,9 +51,10 @@ struct Material {
     float ior = 1.5F;    // [1] >= 1, or 0: Fresnel reflectance 1 (legacy mode of KHR_materials_ior)
     float specular = 1;  // [1] specularFactor: weight of the dielectric's specular layer
     Rgb specular_color{1, 1, 1};  // [1] specularColorFactor: tints its F0
-    Rgb emission{0, 0, 0};        // radiance: emissiveFactor * emissiveStrength
-    bool double_sided = false;    // true: emits from both faces
-    bool unlit = false;           // reflects nothing; vertex colours multiply its emission
+    float transmission = 0;     // [1] share of what enters that goes straight through (thin walls)
+    Rgb emission{0, 0, 0};      // radiance: emissiveFactor * emissiveStrength
+    bool double_sided = false;  // true: emits from both faces
+    bool unlit = false;         // reflects nothing; vertex colours multiply its emission
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha = 1;         // [1] factor of base colour's alpha
     float alpha_cutoff = 0;  // [1] of AlphaMode::mask: what is below is not there

@@ -24,6 +24,7 @@ std::string Features::defines() const {
     text += fmt::format("#define TEXTURE_PAGES {}\n", texture_pages);
     text += fmt::format("#define TEXTURE_PAGE_WORDS {}u\n", texture_page_words);
     define("HAS_SPECULAR", specular);
+    define("HAS_TRANSMISSION", transmission);
     define("HAS_AREA_LIGHTS", area_lights);
     define("HAS_PUNCTUAL_LIGHTS", punctual_lights);
     define("HAS_ENVIRONMENT", environment);
@@ -62,12 +63,14 @@ Features features_of(
         f.specular = f.specular || reflects;
         f.lobe_textures =
             f.lobe_textures ||
-            (reflects && (material.has(TEXTURE_METALLIC_ROUGHNESS) ||
-                          material.has(TEXTURE_SPECULAR) || material.has(TEXTURE_SPECULAR_COLOR)));
+            (reflects &&
+             (material.has(TEXTURE_METALLIC_ROUGHNESS) || material.has(TEXTURE_SPECULAR) ||
+              material.has(TEXTURE_SPECULAR_COLOR) || material.has(TEXTURE_TRANSMISSION)));
         f.textures = f.textures || (!material.unlit && material.has(TEXTURE_BASE_COLOR));
         f.emission_textures =
             f.emission_textures ||
             (material.emits() && (material.has(TEXTURE_EMISSION) || material.unlit));
+        f.transmission = f.transmission || material.transmission > 0;
         f.alpha = f.alpha || material.alpha_mode != AlphaMode::opaque;
     }
     f.normal_maps = !geometry.tangents.empty();

@@ -24,6 +24,7 @@ struct Features {
     uint32_t texture_pages = 0;
     uint64_t texture_page_words = 0;
     bool specular = false;
+    bool transmission = false;
     bool area_lights = false;
     bool punctual_lights = false;
     bool environment = false;

@@ -28,7 +28,7 @@ namespace {
     FIELD(DeviceMaterial, emission_g) FIELD(DeviceMaterial, specular)                             \
     FIELD(DeviceMaterial, base_b) FIELD(DeviceMaterial, f0_b) FIELD(DeviceMaterial, emission_b)   \
     FIELD(DeviceMaterial, alpha) FIELD(DeviceMaterial, double_sided)                              \
-    FIELD(DeviceMaterial, padding)                                                                \
+    FIELD(DeviceMaterial, transmission) FIELD(DeviceMaterial, padding)                                                                \
     STRUCT(DeviceLight)                                                                           \
     FIELD(DeviceLight, alias_threshold) FIELD(DeviceLight, alias) FIELD(DeviceLight, pmf)         \
     FIELD(DeviceLight, kind) FIELD(DeviceLight, primitive) FIELD(DeviceLight, area)               \
