@@ -4,6 +4,7 @@
 #pragma once
 
 #include "geometry/simd.cl"
+#include "geometry/surface_texture.cl"
 #include "geometry/triangle.cl"
 #include "shared/features.h"
 
@@ -114,7 +115,11 @@ INLINE RayStart at_origin(void) {
 // Keeps the closest of the block's hits. At equal distance the lowest id wins, so that the order of
 // the tree decides nothing.
 INLINE void closest_in_block(
-    global const TriangleBlock* block, const ShearedRay* ray, const RayStart start, Hit* hit) {
+    global const TriangleBlock* block,
+    const ShearedRay* ray,
+    const RayStart start,
+    const Cover* cover,
+    Hit* hit) {
     float8 t, u, v;
     uint lanes = lane_mask(intersect_block(block, ray, hit->t, &t, &u, &v));
     if (lanes == 0) return;
@@ -125,11 +130,15 @@ INLINE void closest_in_block(
     do {
         const uint lane = 31u - clz(lanes);
         lanes ^= 1u << lane;
-        const int primitive = (int)block->primitives[lane];
+        const uint entry = block->primitives[lane];
+        const int primitive = (int)(HAS_ALPHA ? entry & ~BVH_HOLES : entry);
         if (HAS_MEDIA &&
             (ts[lane] < start.t || (ts[lane] == start.t && primitive <= start.primitive)))
             continue;
         if (ts[lane] < hit->t || (ts[lane] == hit->t && primitive < hit->primitive)) {
+            if (HAS_ALPHA && (entry & BVH_HOLES) != 0 &&
+                !stops_ray(cover, primitive, us[lane], vs[lane]))
+                continue;
             hit->t = ts[lane];
             hit->u = us[lane];
             hit->v = vs[lane];
@@ -139,15 +148,31 @@ INLINE void closest_in_block(
 }
 
 INLINE int any_in_block(
-    global const TriangleBlock* block, const ShearedRay* ray, const float t_max) {
+    global const TriangleBlock* block,
+    const ShearedRay* ray,
+    const Cover* cover,
+    const float t_max) {
     float8 t, u, v;
-    return lane_mask(intersect_block(block, ray, t_max, &t, &u, &v) & (t < t_max)) != 0;
+    uint lanes = lane_mask(intersect_block(block, ray, t_max, &t, &u, &v) & (t < t_max));
+    if (!HAS_ALPHA || lanes == 0) return lanes != 0;
+    float us[8], vs[8];
+    vstore8(u, 0, us);
+    vstore8(v, 0, vs);
+    while (lanes != 0) {
+        const uint lane = 31u - clz(lanes);
+        lanes ^= 1u << lane;
+        const uint entry = block->primitives[lane];
+        if ((entry & BVH_HOLES) == 0 ||
+            stops_ray(cover, (int)(entry & ~BVH_HOLES), us[lane], vs[lane]))
+            return 1;
+    }
+    return 0;
 }
 
-// The closest triangle behind `start` and before t_max: the nearest child is entered, the others
-// wait with their distances and are dropped when a hit has come nearer. Not inlined: PoCL would
-// give every work-item of a group a stack of its own, where one serves all in turn and stays in the
-// cache.
+// The closest triangle behind `start` and before t_max that stops the ray: the nearest child is
+// entered, the others wait with their distances and are dropped when a hit has come nearer. Not
+// inlined: PoCL would give every work-item of a group a stack of its own, where one serves all in
+// turn and stays in the cache.
 Hit closest_hit(
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
@@ -158,7 +183,8 @@ Hit closest_hit(
     const float dy,
     const float dz,
     const float t_max,
-    const RayStart start) {
+    const RayStart start,
+    const Cover* cover) {
     const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
     Hit hit = {end_of_ray(ox, oy, oz, dx, dy, dz, t_max), 0.0f, 0.0f, -1};
@@ -169,7 +195,7 @@ Hit closest_hit(
     for (;;) {
         uint lanes = 0;
         if (current & BVH_LEAF) {
-            closest_in_block(blocks + (current & ~BVH_LEAF), &sheared, start, &hit);
+            closest_in_block(blocks + (current & ~BVH_LEAF), &sheared, start, cover, &hit);
         } else {
             float8 t_near;
             lanes = lane_mask(intersect_node(
@@ -206,7 +232,8 @@ Hit closest_hit(
     }
 }
 
-// 1 if a triangle lies in (0, t_max). Any order of the children will do; not inlined, as above.
+// 1 if a triangle lies in (0, t_max) and stops the ray. Any order of the children will do; not
+// inlined, as above.
 int any_hit(
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
@@ -216,7 +243,8 @@ int any_hit(
     const float dx,
     const float dy,
     const float dz,
-    const float t_max) {
+    const float t_max,
+    const Cover* cover) {
     const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
     const float end = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
@@ -225,7 +253,7 @@ int any_hit(
     uint current = 0;
     for (;;) {
         if (current & BVH_LEAF) {
-            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, end)) return 1;
+            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, end)) return 1;
         } else {
             float8 t_near;
             uint lanes = lane_mask(intersect_node(nodes + current, &slabs, 0.0f, end, &t_near));

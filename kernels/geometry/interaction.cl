@@ -1,15 +1,13 @@
 // Where a ray met a surface, and what it met.
 #pragma once
 
+#include "geometry/attributes.cl"
+#include "geometry/shading_normal.cl"
 #include "materials/gltf_material.cl"
 #include "shared/features.h"
 #include "shared/inline.h"
 #include "shared/path.h"
 #include "shared/scene.h"
-
-#define TRIANGLE_NORMALS TRIANGLE_ATTRIBUTES
-#define TRIANGLE_COLORS (TRIANGLE_ATTRIBUTES + 9 * HAS_VERTEX_NORMALS)
-#define TRIANGLE_FLOATS (TRIANGLE_ATTRIBUTES + 9 * HAS_VERTEX_NORMALS + 9 * HAS_VERTEX_COLORS)
 
 // How far a ray starts off its surface, along the geometric normal. The scene is normalised, so one
 // number serves all: hit points from barycentrics are right to 1e-7, a tenth of this.
@@ -23,29 +21,6 @@ typedef struct {
     int material;
     uint light;  // row of the light table if it emits towards the viewer, else NO_LIGHT
 } Interaction;
-
-INLINE Vec3 triangle_corner(global const float* triangle, const int attribute, const int corner) {
-    return vec3(
-        triangle[attribute + 3 * corner], triangle[attribute + 3 * corner + 1],
-        triangle[attribute + 3 * corner + 2]);
-}
-
-INLINE Vec3
-interpolate(global const float* triangle, const int attribute, const float u, const float v) {
-    const Vec3 a = triangle_corner(triangle, attribute, 0);
-    const Vec3 b = triangle_corner(triangle, attribute, 1);
-    const Vec3 c = triangle_corner(triangle, attribute, 2);
-    return madd3(madd3(scale3(a, 1.0f - u - v), b, u), c, v);
-}
-
-// Normal of a triangle, not unit: length = twice the area; towards whom its corners run
-// counter-clockwise.
-INLINE Vec3 triangle_cross(global const float* triangle) {
-    const Vec3 a = triangle_corner(triangle, TRIANGLE_CORNERS, 0);
-    return cross3(
-        sub3(triangle_corner(triangle, TRIANGLE_CORNERS, 1), a),
-        sub3(triangle_corner(triangle, TRIANGLE_CORNERS, 2), a));
-}
 
 INLINE Interaction find_interaction(
     global const float* triangles,
@@ -66,9 +41,7 @@ INLINE Interaction find_interaction(
     if (HAS_VERTEX_NORMALS) {
         const Vec3 sum = interpolate(triangle, TRIANGLE_NORMALS, u, v);
         const Vec3 smooth = scale3(normalize3(sum), front ? 1.0f : -1.0f);
-        // A shading normal that the viewer sees from behind would reflect nothing: there the face's
-        // own normal serves.
-        r.n = select3(dot3(smooth, direction) < 0.0f && dot3(smooth, r.ng) > 0.0f, smooth, r.ng);
+        r.n = visible_normal(smooth, r.ng, scale3(direction, -1.0f));
     }
     r.base = vec3(material->base_r, material->base_g, material->base_b);
     if (HAS_VERTEX_COLORS) r.base = mul3(r.base, interpolate(triangle, TRIANGLE_COLORS, u, v));
@@ -84,20 +57,27 @@ INLINE Surface load_surface(
     const size_t slot) {
     Surface s;
     s.base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
-    if (HAS_SPECULAR) {
+    if (HAS_SPECULAR && HAS_LOBE_TEXTURES) {
+        s.f0 = load3(PLANE(surfaces, SURFACE_F0_R), stride, slot);
+        s.metallic = PLANE(surfaces, SURFACE_METALLIC)[slot];
+        s.specular = PLANE(surfaces, SURFACE_SPECULAR)[slot];
+        s.alpha = PLANE(surfaces, SURFACE_ALPHA)[slot];
+        s.transmission = PLANE(surfaces, SURFACE_TRANSMISSION)[slot];
+    } else if (HAS_SPECULAR) {
         global const DeviceMaterial* material =
             materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
         s.f0 = vec3(material->f0_r, material->f0_g, material->f0_b);
         s.metallic = material->metallic;
         s.specular = material->specular;
         s.alpha = material->alpha;
+        s.transmission = material->transmission;
     }
     return s;
 }
 
 INLINE Vec3
 load_shading_normal(global const float* surfaces, const size_t stride, const size_t slot) {
-    return load3(PLANE(surfaces, HAS_VERTEX_NORMALS ? SURFACE_N_X : SURFACE_NG_X), stride, slot);
+    return load3(PLANE(surfaces, HAS_SHADING_NORMALS ? SURFACE_N_X : SURFACE_NG_X), stride, slot);
 }
 
 // The start of a ray that leaves the surface on the side of the normal `ng`.

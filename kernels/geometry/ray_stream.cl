@@ -6,7 +6,7 @@
 //     stream_open(&stream);
 //     do {
 //         while (rays are left && stream_has_room(&stream)) stream_add(&stream, item, ...);
-//         stream_step(&stream, nodes, blocks, any);
+//         stream_step(&stream, nodes, blocks, &cover, any);
 //         for (int k = 0; k < stream.ended; ++k) use stream_ended(&stream, k)
 //     } while (rays are left || stream_busy(&stream));
 //
@@ -29,6 +29,7 @@ typedef struct {
     ShearedRay sheared;
     RayStart start;
     Hit hit;       // the closest so far; any hit: `primitive` >= 0 if there is one
+    uint key;      // Cover's (HAS_ALPHA)
     uint item;     // the caller's name for the ray
     uint current;  // node or leaf of the next step, BVH_EMPTY: ended
     int top;       // just above the waiting entries
@@ -75,7 +76,8 @@ INLINE void stream_add(
     const float dy,
     const float dz,
     const float t_max,
-    const RayStart start) {
+    const RayStart start,
+    const uint key) {
     --stream->idles;
     const int i = stream->idle[stream->idles];
     StreamRay* ray = &stream->rays[i];
@@ -87,6 +89,7 @@ INLINE void stream_add(
     ray->hit.v = 0.0f;
     ray->hit.primitive = -1;
     ray->item = item;
+    if (HAS_ALPHA) ray->key = key;
     ray->current = 0;
     ray->top = 8;
     vstore8((float8)(-1.0f), 0, ray->waiting_t);
@@ -144,22 +147,27 @@ INLINE void step_node(StreamRay* ray, global const BvhNode* node, const int any)
     ray->current = ray->waiting[ray->top];
 }
 
-INLINE void step_leaf(StreamRay* ray, global const TriangleBlock* block, const int any) {
+INLINE void step_leaf(
+    StreamRay* ray, global const TriangleBlock* block, const Cover* scene, const int any) {
+    Cover cover = *scene;
+    if (HAS_ALPHA) cover.key = ray->key;
     if (any) {
-        ray->hit.primitive = any_in_block(block, &ray->sheared, ray->hit.t) ? 0 : -1;
+        ray->hit.primitive = any_in_block(block, &ray->sheared, &cover, ray->hit.t) ? 0 : -1;
         ray->top = ray->hit.primitive < 0 ? ray->top - 1 : 7;
     } else {
-        closest_in_block(block, &ray->sheared, ray->start, &ray->hit);
+        closest_in_block(block, &ray->sheared, ray->start, &cover, &ray->hit);
         ray->top = next_waiting(ray);
     }
     ray->current = ray->waiting[ray->top];
 }
 
-// One step of every ray. `any`: the first hit ends a ray (a constant: the compiler drops the rest).
+// One step of every ray. `scene`: the cover of all rays but for the key, which each has of its own.
+// `any`: the first hit ends a ray (a constant: the compiler drops the rest).
 INLINE void stream_step(
     RayStream* stream,
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
+    const Cover* scene,
     const int any) {
     int at_node = 0;
     int at_leaf = stream->leaves;
@@ -185,7 +193,7 @@ INLINE void stream_step(
             ++stream->ended;
             continue;
         }
-        step_leaf(ray, blocks + (ray->current & ~BVH_LEAF), any);
+        step_leaf(ray, blocks + (ray->current & ~BVH_LEAF), scene, any);
         const int leaf = fetch_next(ray, nodes, blocks);
         stream->at_node[at_node] = i;
         stream->at_leaf[at_leaf] = i;

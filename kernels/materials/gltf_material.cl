@@ -1,8 +1,12 @@
 // glTF 2.0 metallic-roughness (appendix B) with KHR_materials_ior and KHR_materials_specular:
 //   f_r = D V [(1 - metallic) specular F + metallic F_metal] + (1 - metallic) (1 - specular max F)
-//   base / pi
+//   (1 - transmission) base / pi
+// and, to the other side of a thin wall (KHR_materials_transmission), with wi mirrored in D V and
+// F,
+//   f_t = D V (1 - metallic) (1 - specular max F) transmission base
 // The dielectric's layering gains energy at grazing angles by specification (the appendix says so
-// itself). Directions are in the shading frame, leaving the surface, with wo.z > 0.
+// itself). Directions are in the shading frame, leaving the surface, with wo.z > 0; wi.z < 0 has
+// gone through. Below, `through` picks f_t, for which wi is given mirrored: wi.z > 0 too.
 #pragma once
 
 #include "materials/fresnel.cl"
@@ -13,16 +17,18 @@
 #include "shared/path.h"
 
 typedef struct {
-    Vec3 base;       // [1]
-    Vec3 f0;         // [1] of the dielectric
-    float metallic;  // [1]
-    float specular;  // [1] weight of the dielectric's specular layer
-    float alpha;     // [1]
+    Vec3 base;           // [1]
+    Vec3 f0;             // [1] of the dielectric
+    float metallic;      // [1]
+    float specular;      // [1] weight of the dielectric's specular layer
+    float alpha;         // [1]
+    float transmission;  // [1] share of what the specular layer lets in that goes through
 } Surface;
 
 typedef struct {
     Vec3 specular;  // factor of D V
     Vec3 diffuse;   // albedo of the Lambert part
+    Vec3 through;   // factor of D V of the other side
 } Reflectance;
 
 // Both factors for a microfacet that sees wo under `cosine` = wo.m.
@@ -31,6 +37,7 @@ INLINE Reflectance gltf_reflectance(const Surface s, const float cosine) {
     if (!HAS_SPECULAR) {
         r.specular = vec3(0.0f, 0.0f, 0.0f);
         r.diffuse = s.base;
+        r.through = r.specular;
         return r;
     }
     const float weight = schlick_weight(cosine);
@@ -38,7 +45,9 @@ INLINE Reflectance gltf_reflectance(const Surface s, const float cosine) {
     const Vec3 metal = schlick(s.base, weight);
     const float dielectric_share = 1.0f - s.metallic;
     r.specular = madd3(scale3(dielectric, dielectric_share), metal, s.metallic);
-    r.diffuse = scale3(s.base, dielectric_share * (1.0f - max_component3(dielectric)));
+    const Vec3 entered = scale3(s.base, dielectric_share * (1.0f - max_component3(dielectric)));
+    r.diffuse = HAS_TRANSMISSION ? scale3(entered, 1.0f - s.transmission) : entered;
+    r.through = scale3(entered, HAS_TRANSMISSION ? s.transmission : 0.0f);
     return r;
 }
 
@@ -46,65 +55,99 @@ INLINE int gltf_is_mirror(const Surface s) {
     return HAS_SPECULAR && s.alpha < MIRROR_ALPHA;
 }
 
-// Probability that sampling takes the specular lobe: its share of what is reflected at
-// normal-facing facets.
-INLINE float gltf_specular_pmf(const Surface s, const Vec3 wo) {
-    if (!HAS_SPECULAR) return 0.0f;
+// Probabilities that sampling takes the specular lobe, and the one through: their shares of what
+// leaves normal-facing facets.
+typedef struct {
+    float specular, through;
+} LobeChances;
+
+INLINE LobeChances gltf_lobe_pmf(const Surface s, const Vec3 wo) {
+    LobeChances c;
+    c.specular = 0.0f;
+    c.through = 0.0f;
+    if (!HAS_SPECULAR) return c;
     const Reflectance r = gltf_reflectance(s, wo.z);
     const float specular = max_component3(r.specular);
-    const float sum = specular + max_component3(r.diffuse);
+    const float through = max_component3(r.through);
+    const float sum = specular + max_component3(r.diffuse) + (HAS_TRANSMISSION ? through : 0.0f);
     const float share = sum > 0.0f ? specular / sum : 0.0f;
     // uniform in projected solid angle for every lobe that is not a delta
-    return SAMPLE_LOBES || gltf_is_mirror(s) ? share : 0.0f;
+    c.specular = SAMPLE_LOBES || gltf_is_mirror(s) ? share : 0.0f;
+    if (HAS_TRANSMISSION) c.through = sum > 0.0f ? through / sum : 0.0f;
+    return c;
 }
 
-// f_r cos of the lobes that are not deltas.
-INLINE Vec3 gltf_eval(const Surface s, const Vec3 wo, const Vec3 wi) {
+// f cos of the lobes that are not deltas, on one side.
+INLINE Vec3 gltf_eval(const Surface s, const Vec3 wo, const Vec3 wi, const int through) {
     if (!HAS_SPECULAR) return scale3(s.base, lambert_eval(wi));
     const Vec3 m = normalize3(add3(wo, wi));
     const Reflectance r = gltf_reflectance(s, dot3(wo, m));
     const float ggx = gltf_is_mirror(s) ? 0.0f : ggx_eval(wo, wi, m, s.alpha);
-    const Vec3 value = madd3(scale3(r.diffuse, lambert_eval(wi)), r.specular, ggx);
+    Vec3 value = madd3(scale3(r.diffuse, lambert_eval(wi)), r.specular, ggx);
+    if (HAS_TRANSMISSION) value = select3(through, scale3(r.through, ggx), value);
     return select3(wi.z > 0.0f, value, vec3(0.0f, 0.0f, 0.0f));
 }
 
-// pdf_w [1/sr] of gltf_sample, without its delta.
-INLINE float gltf_pdf_w(const Surface s, const Vec3 wo, const Vec3 wi) {
+// pdf_w [1/sr] of gltf_sample, without its deltas, on one side.
+INLINE float gltf_pdf_w(const Surface s, const Vec3 wo, const Vec3 wi, const int through) {
     if (!HAS_SPECULAR) return lambert_pdf_w(wi);
-    const float pmf = gltf_specular_pmf(s, wo);
+    const LobeChances pmf = gltf_lobe_pmf(s, wo);
     const float ggx = gltf_is_mirror(s) ? 0.0f : ggx_pdf_w(wo, normalize3(add3(wo, wi)), s.alpha);
-    const float pdf_w =
-        pmf > 0.0f ? fma(pmf, ggx, (1.0f - pmf) * lambert_pdf_w(wi)) : lambert_pdf_w(wi);
+    float pdf_w = pmf.specular > 0.0f
+                      ? fma(pmf.specular, ggx, (1.0f - pmf.specular) * lambert_pdf_w(wi))
+                      : lambert_pdf_w(wi);
+    if (HAS_TRANSMISSION) {
+        const float diffuse = 1.0f - pmf.specular - pmf.through;
+        const float above = fma(pmf.specular, ggx, diffuse * lambert_pdf_w(wi));
+        const float spread = SAMPLE_LOBES || gltf_is_mirror(s) ? ggx : lambert_pdf_w(wi);
+        pdf_w = through ? pmf.through * spread : above;
+    }
     return wi.z > 0.0f ? pdf_w : 0.0f;
 }
 
 typedef struct {
     Vec3 wi;
-    Vec3 weight;  // f_r cos / pdf_w; 0: absorbed
+    Vec3 weight;  // f cos / pdf_w; 0: absorbed
     float pdf_w;  // [1/sr], or PDF_CERTAIN from a delta
+    int through;  // wi.z < 0: to the other side
 } BsdfSample;
+
+INLINE Vec3 through_wall(const Vec3 wi) {
+    return vec3(wi.x, wi.y, -wi.z);
+}
 
 INLINE BsdfSample gltf_sample(const Surface s, const Vec3 wo, const Sample2 u, const float choice) {
     BsdfSample r;
     r.wi = lambert_sample(u);
+    r.through = 0;
     if (!HAS_SPECULAR) {
         r.weight = s.base;
         r.pdf_w = lambert_pdf_w(r.wi);
         return r;
     }
-    const float pmf = gltf_specular_pmf(s, wo);
-    const int specular = choice < pmf;
+    const LobeChances pmf = gltf_lobe_pmf(s, wo);
+    const int through = HAS_TRANSMISSION && choice >= 1.0f - pmf.through;
+    const int specular = choice < pmf.specular;
     const int mirror = gltf_is_mirror(s);
     const Vec3 m =
         select3(mirror, vec3(0.0f, 0.0f, 1.0f), ggx_sample(wo, max(s.alpha, MIRROR_ALPHA), u));
     const Vec3 reflected = sub3(scale3(m, 2.0f * dot3(wo, m)), wo);
-    r.wi = select3(specular, reflected, r.wi);
+    int facet = specular;
+    if (HAS_TRANSMISSION) facet |= SAMPLE_LOBES ? through : (through & mirror);
+    r.wi = select3(facet, reflected, r.wi);
 
-    const int delta = specular && mirror;
-    const float pdf_w = gltf_pdf_w(s, wo, r.wi);
-    const Vec3 finite = scale3(gltf_eval(s, wo, r.wi), pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
-    const Vec3 certain = scale3(gltf_reflectance(s, wo.z).specular, pmf > 0.0f ? 1.0f / pmf : 0.0f);
+    const int delta = facet && mirror;
+    const float pdf_w = gltf_pdf_w(s, wo, r.wi, through);
+    const Vec3 finite = scale3(gltf_eval(s, wo, r.wi, through), pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
+    const Reflectance facing = gltf_reflectance(s, wo.z);
+    const float chance = HAS_TRANSMISSION && through ? pmf.through : pmf.specular;
+    const Vec3 taken = HAS_TRANSMISSION && through ? facing.through : facing.specular;
+    const Vec3 certain = scale3(taken, chance > 0.0f ? 1.0f / chance : 0.0f);
     r.weight = select3(delta, certain, finite);
     r.pdf_w = delta ? PDF_CERTAIN : pdf_w;
+    if (HAS_TRANSMISSION) {
+        r.through = through;
+        r.wi = select3(through, through_wall(r.wi), r.wi);
+    }
     return r;
 }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "sampling/sobol.cl"
+#include "sampling/vector.cl"
 #include "shared/features.h"
 #include "shared/inline.h"
+#include "shared/path.h"
 
 #define PAIR_PIXEL 0u  // position within the pixel
 #define PAIR_FIRST 1u  // of the first scattering
@@ -44,4 +46,18 @@ INLINE Bits2 scattering_pair(
     return dimension_pair(
         seed, reversed_index, HAS_SPLITS ? hash_pair(dimension, branch) : dimension,
         scattering < SOBOL_SCATTERINGS);
+}
+
+// Random bits of slot `slot`'s ray, by which surfaces that cover a part of a point stop it or not
+// (geometry/surface_texture.cl).
+INLINE uint cover_key(global const uint* ids, const size_t stride, const size_t slot) {
+    const uint dimension = PAIR_FIRST + PLANE(ids, ID_SCATTERING)[slot] * SCATTERING_PAIRS;
+    const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
+    const uint ray = hash_pair(PLANE(ids, ID_SEED)[slot], PLANE(ids, ID_INDEX)[slot]);
+    return hash_pair(ray, hash_pair(dimension, branch));
+}
+
+// The same for its connection to a light.
+INLINE uint shadow_cover_key(global const uint* ids, const size_t stride, const size_t slot) {
+    return ~cover_key(ids, stride, slot);
 }

@@ -11,8 +11,32 @@
 #ifndef HAS_VERTEX_COLORS
 #define HAS_VERTEX_COLORS 1  // some mesh has COLOR_0
 #endif
+#ifndef HAS_TEXTURES
+#define HAS_TEXTURES 1  // some surface has a texture besides its emission
+#endif
+#ifndef UV_SETS
+#define UV_SETS 2  // sets of texture coordinates a triangle has
+#endif
+#ifndef HAS_NORMAL_MAPS
+#define HAS_NORMAL_MAPS 1
+#endif
+#ifndef HAS_LOBE_TEXTURES
+#define HAS_LOBE_TEXTURES 1  // of what gltf_material.cl calls Surface, but for its base colour
+#endif
+#ifndef HAS_EMISSION_TEXTURES
+#define HAS_EMISSION_TEXTURES 1  // or vertex colours that tint emission
+#endif
+#ifndef HAS_ALPHA
+#define HAS_ALPHA 1  // some material has holes or is blended
+#endif
+#ifndef HAS_VERTEX_ALPHAS
+#define HAS_VERTEX_ALPHAS 1  // some such mesh has them in COLOR_0
+#endif
 #ifndef HAS_SPECULAR
 #define HAS_SPECULAR 1  // some material has a microfacet or mirror lobe
+#endif
+#ifndef HAS_TRANSMISSION
+#define HAS_TRANSMISSION 1  // some material lets light through (thin walls)
 #endif
 #ifndef HAS_AREA_LIGHTS
 #define HAS_AREA_LIGHTS 1
@@ -50,5 +74,8 @@
 #ifndef SAMPLER_SOBOL
 #define SAMPLER_SOBOL 1  // 0: independent points
 #endif
+
+// Normals to shade by that are not the face's own.
+#define HAS_SHADING_NORMALS (HAS_VERTEX_NORMALS || HAS_NORMAL_MAPS)
 
 #endif

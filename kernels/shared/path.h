@@ -46,12 +46,20 @@ enum SurfacePlane {
     SURFACE_MATERIAL,  // (int bits)
     SURFACE_LIGHT,     // (uint bits) row of the light table if it emits towards the viewer, else
                        // NO_LIGHT
-    SURFACE_N_X,       // shading normal, unit, on the viewer's side (only with HAS_VERTEX_NORMALS)
+    SURFACE_N_X,       // shading normal, unit, on the viewer's side (only with HAS_SHADING_NORMALS)
     SURFACE_N_Y,
     SURFACE_N_Z,
+    SURFACE_METALLIC,  // [1] (only with HAS_LOBE_TEXTURES, as are the next)
+    SURFACE_ALPHA,     // [1] roughness^2
+    SURFACE_SPECULAR,  // [1]
+    SURFACE_F0_R,      // [1] of the dielectric
+    SURFACE_F0_G,
+    SURFACE_F0_B,
+    SURFACE_TRANSMISSION,  // [1]
     SURFACE_PLANES
 };
 #define SURFACE_PLANES_FLAT SURFACE_N_X
+#define SURFACE_PLANES_SHADED SURFACE_METALLIC
 
 // media: where a path stands among the media (only with HAS_MEDIA). A ray that passes an
 // index-matched boundary keeps its origin: its next segment begins at MEDIUM_T, behind the triangle

@@ -18,11 +18,11 @@ typedef struct {
     shared_float base_b;
     shared_float f0_b;
     shared_float emission_b;
-    shared_float alpha;        // [1] roughness^2
-    shared_uint double_sided;  // emits from both faces
-    shared_uint boundary;      // BOUNDARY_*
-    shared_uint medium;        // row of the table of media + 1 of what it encloses; 0: nothing
-    shared_uint padding;
+    shared_float alpha;         // [1] roughness^2
+    shared_uint double_sided;   // emits from both faces
+    shared_uint boundary;       // BOUNDARY_*
+    shared_uint medium;         // row of the table of media + 1 of what it encloses; 0: nothing
+    shared_float transmission;  // [1] share of what enters that goes straight through (thin walls)
 } DeviceMaterial;
 SHARED_SIZE(DeviceMaterial, 64);
 
@@ -48,11 +48,12 @@ typedef struct {
 } DeviceMedium;
 SHARED_SIZE(DeviceMedium, 48);
 
-// A triangle is TRIANGLE_FLOATS floats in scene order: these, then nine of normals and nine of
-// colours if the scene has any (shared/features.h).
-#define TRIANGLE_MATERIAL 0  // (uint bits)
-#define TRIANGLE_LIGHT 1     // (uint bits) row of the light table, or NO_LIGHT
-#define TRIANGLE_CORNERS 2   // 3 x (x, y, z)
+// A triangle is TRIANGLE_FLOATS floats in scene order: these, then what the scene's vertices have
+// (geometry/attributes.cl).
+#define TRIANGLE_MATERIAL 0    // (uint bits)
+#define TRIANGLE_LIGHT 1       // (uint bits) row of the light table, or NO_LIGHT
+#define TRIANGLE_CORNERS 2     // 3 x (x, y, z)
+#define TRIANGLE_BITANGENT 11  // bitangent = this (1 or -1) * cross(normal, tangent)
 #define TRIANGLE_ATTRIBUTES 12
 #define NO_LIGHT 0xFFFFFFFFu
 

@@ -2,15 +2,17 @@
 // `occlusion`, which knows no boundaries. One ray meets the index-matched boundaries one after the
 // other and ends at its light: nothing is pushed off a boundary, so no lamp below one is missed.
 //
-// reads: shadows, media, scene
+// reads: shadows, media, ids, scene, textures
 //
 // writes: radiances, fates
 //
 // One work-item a slot.
 
 #include "geometry/bvh.cl"
+#include "geometry/surface_texture.cl"
 #include "media/homogeneous.cl"
 #include "media/medium_stack.cl"
+#include "sampling/dimensions.cl"
 #include "shared/params.h"
 #include "shared/queues.h"
 
@@ -22,8 +24,10 @@ kernel void connect_through_media(
     global const float* restrict triangles,
     global const DeviceMaterial* restrict materials,
     global const DeviceMedium* restrict media,
+    TEXTURE_PARAMETERS,
     global const float* restrict shadows,
     global const float* restrict path_media,
+    global const uint* restrict ids,
     global float* restrict radiances,
     global uchar* restrict fates) {
     const size_t stride = settings->stride;
@@ -39,10 +43,12 @@ kernel void connect_through_media(
     Vec3 value = load3(PLANE(shadows, SHADOW_R), stride, slot);
     Vec3 tau = vec3(0.0f, 0.0f, 0.0f);
     RayStart start = at_origin();
+    const Cover cover =
+        ray_cover(TEXTURES, triangles, HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
     for (;;) {
         const Hit hit = closest_hit(
             nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-            t_max, start);
+            t_max, start, &cover);
         const int arrives = hit.primitive < 0 || hit.t >= t_max;
         if (!arrives) {
             global const float* triangle = triangles + TRIANGLE_FLOATS * hit.primitive;
@@ -59,6 +65,12 @@ kernel void connect_through_media(
         const Interaction x =
             find_interaction(triangles, materials, hit.primitive, hit.u, hit.v, direction);
         value = mul3(value, x.base);
+        if (HAS_TEXTURES) {
+            const Texel t = texture_on_triangle(
+                cover.textures, texture_row(cover.textures, x.material, TEXTURE_BASE_COLOR),
+                triangles + (size_t)TRIANGLE_FLOATS * hit.primitive, hit.u, hit.v);
+            value = mul3(value, vec3(t.r, t.g, t.b));
+        }
         stack = cross_boundary(
             stack, materials[x.material].medium, triangles + TRIANGLE_FLOATS * hit.primitive,
             direction);

@@ -2,13 +2,14 @@
 // connection to `occlusion` or `connect_through_media` (notes 5, directRadianceEstimator, with the
 // f_r that the notes leave out; notes 6).
 //
-// reads: rays, hits, surfaces, throughputs, ids, media, scene, lights
+// reads: rays, hits, surfaces, throughputs, ids, media, scene, lights, textures
 //
 // writes: shadows
 //
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "geometry/surface_texture.cl"
 #include "lights/area_light.cl"
 #include "lights/environment.cl"
 #include "lights/punctual.cl"
@@ -24,6 +25,7 @@ kernel void direct_light(
     global const DeviceLight* restrict lights,
     global const EnvironmentEntry* restrict environment,
     global const DeviceMedium* restrict media,
+    TEXTURE_PARAMETERS,
     global const float* restrict rays,
     global const float* restrict hits,
     global const float* restrict surfaces,
@@ -61,8 +63,17 @@ kernel void direct_light(
     s.pdf_w = PDF_CERTAIN;
     if (HAS_PUNCTUAL_LIGHTS) s = punctual_sample(light, p);
     if (HAS_AREA_LIGHTS) {
-        const LightSample area = area_light_sample(triangles, light, p, unit_pair(point));
+        LightSample area = area_light_sample(triangles, light, p, unit_pair(point));
         const int is_area = light->kind == LIGHT_TRIANGLE;
+        if ((HAS_EMISSION_TEXTURES || HAS_ALPHA) && is_area) {
+            global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * light->primitive;
+            const Sample2 b = sample_triangle(unit_pair(point));
+            if (HAS_EMISSION_TEXTURES)
+                area.radiance =
+                    mul3(area.radiance, emission_on_triangle(TEXTURES, triangle, b.u, b.v));
+            if (HAS_ALPHA)
+                area.radiance = scale3(area.radiance, cover_of(TEXTURES, triangle, b.u, b.v));
+        }
         s.p = select3(is_area, area.p, s.p);
         s.wi = select3(is_area, area.wi, s.wi);
         s.radiance = select3(is_area, area.radiance, s.radiance);
@@ -85,29 +96,31 @@ kernel void direct_light(
     const Frame frame = frame_around(n);
     const Vec3 wo =
         to_local(frame, scale3(load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), -1.0f));
-    const Vec3 wi = to_local(frame, s.wi);
+    const Scattered scattered = scatter_towards(surface, frame, ng, wo, s.wi);
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
-    float phase = 0.0f;
+    Vec3 scattered_value = scattered.value;
+    float scattered_pdf_w = scattered.pdf_w;
     if (HAS_MEDIA && MEDIA_SCATTER) {
         const uint innermost = innermost_medium(as_uint(PLANE(path_media, MEDIUM_STACK)[slot]));
         const float g = media[(int)max(innermost, 1u) - 1].anisotropy;
-        phase = phase_eval(g, load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), s.wi);
+        const float phase = phase_eval(g, load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), s.wi);
+        scattered_value = select3(in_medium, vec3(phase, phase, phase), scattered_value);
+        scattered_pdf_w = in_medium ? phase_pdf_w(phase) : scattered_pdf_w;
     }
-    value = mul3(value, select3(in_medium, vec3(phase, phase, phase), gltf_eval(surface, wo, wi)));
+    value = mul3(value, scattered_value);
     if (WEIGH_BOTH) {
-        const float pdf_w = in_medium ? phase_pdf_w(phase) : gltf_pdf_w(surface, wo, wi);
         // a sky below the horizon has no density and no radiance either
-        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), pdf_w);
+        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), scattered_pdf_w);
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
     // NaN passes every test, to be found and counted.
     // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay
     // scalar on PoCL.
     float t_max = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    t_max *= in_medium || !(dot3(ng, s.wi) <= 0.0f) ? 1.0f : 0.0f;
-    t_max *= in_medium || !(wi.z <= 0.0f) ? 1.0f : 0.0f;
+    const float side = HAS_TRANSMISSION && dot3(ng, s.wi) < 0.0f ? -1.0f : 1.0f;
+    t_max *= in_medium || !(side * dot3(ng, s.wi) <= 0.0f) ? 1.0f : 0.0f;
     t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
-    const Vec3 origin = select3(in_medium, p, leave(p, ng));
+    const Vec3 origin = select3(in_medium, p, leave(p, scale3(ng, side)));
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, sub3(s.p, origin));
     PLANE(shadows, SHADOW_T_MAX)[slot] = t_max;

@@ -30,5 +30,5 @@ kernel void interact(
     store3(PLANE(surfaces, SURFACE_BASE_R), stride, slot, x.base);
     PLANE(surfaces, SURFACE_MATERIAL)[slot] = as_float(x.material);
     PLANE(surfaces, SURFACE_LIGHT)[slot] = as_float(x.light);
-    if (HAS_VERTEX_NORMALS) store3(PLANE(surfaces, SURFACE_N_X), stride, slot, x.n);
+    if (HAS_SHADING_NORMALS) store3(PLANE(surfaces, SURFACE_N_X), stride, slot, x.n);
 }

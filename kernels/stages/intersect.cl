@@ -1,12 +1,13 @@
 // Finds the closest triangle along every ray.
 //
-// reads: rays, media, bvh
+// reads: rays, media, ids, bvh, triangles and textures (holes)
 //
 // writes: hits
 //
 // One work-item for RAYS_PER_ITEM slots.
 
 #include "geometry/ray_stream.cl"
+#include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
 #include "shared/features.h"
 #include "shared/params.h"
@@ -31,8 +32,11 @@ kernel void intersect(
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
+    global const float* restrict triangles,
+    TEXTURE_PARAMETERS,
     global const float* restrict rays,
     global const float* restrict path_media,
+    global const uint* restrict ids,
     global float* restrict hits) {
     const size_t stride = params->stride;
     uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
@@ -40,15 +44,18 @@ kernel void intersect(
     if (RAYS_PER_ITEM == 1) {
         if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return;
         if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
+        const Cover cover =
+            ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
         const Hit hit = closest_hit(
             nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
             PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
             PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
-            load_start(path_media, stride, slot));
+            load_start(path_media, stride, slot), &cover);
         store_hit(hits, stride, slot, &hit);
         return;
     }
     const uint end = min(slots, slot + RAYS_PER_ITEM);
+    const Cover cover = ray_cover(TEXTURES, triangles, 0);
     RayStream stream;
     stream_open(&stream);
     do {
@@ -59,9 +66,9 @@ kernel void intersect(
                 &stream, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
                 PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
                 PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
-                load_start(path_media, stride, slot));
+                load_start(path_media, stride, slot), HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
         }
-        stream_step(&stream, nodes, blocks, 0);
+        stream_step(&stream, nodes, blocks, &cover, 0);
         for (int k = 0; k < stream.ended; ++k) {
             const StreamRay* ray = stream_ended(&stream, k);
             store_hit(hits, stride, ray->item, &ray->hit);

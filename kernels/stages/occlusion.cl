@@ -1,12 +1,13 @@
 // Traces the pending connections and adds what arrives.
 //
-// reads: shadows, bvh
+// reads: shadows, ids, bvh, triangles and textures (holes)
 //
 // writes: radiances, fates
 //
 // One work-item for RAYS_PER_ITEM slots.
 
 #include "geometry/ray_stream.cl"
+#include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
 #include "shared/path.h"
@@ -23,7 +24,10 @@ kernel void occlusion(
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
+    global const float* restrict triangles,
+    TEXTURE_PARAMETERS,
     global const float* restrict shadows,
+    global const uint* restrict ids,
     global float* restrict radiances,
     global uchar* restrict fates) {
     const size_t stride = params->stride;
@@ -33,15 +37,18 @@ kernel void occlusion(
         const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
         fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
         if (t_max <= 0.0f) return;
+        const Cover cover =
+            ray_cover(TEXTURES, triangles, HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
         const int blocked = any_hit(
             nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
             PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
             PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
-            PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max);
+            PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, &cover);
         if (!blocked) add_connection(shadows, radiances, stride, slot);
         return;
     }
     const uint end = min(slots, slot + RAYS_PER_ITEM);
+    const Cover cover = ray_cover(TEXTURES, triangles, 0);
     RayStream stream;
     stream_open(&stream);
     do {
@@ -53,9 +60,10 @@ kernel void occlusion(
                 &stream, slot, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
                 PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
                 PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
-                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin());
+                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin(),
+                HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
         }
-        stream_step(&stream, nodes, blocks, 1);
+        stream_step(&stream, nodes, blocks, &cover, 1);
         for (int k = 0; k < stream.ended; ++k) {
             const StreamRay* ray = stream_ended(&stream, k);
             if (ray->hit.primitive < 0) add_connection(shadows, radiances, stride, ray->item);

@@ -66,27 +66,34 @@ kernel void sample_indirect(
         choice = unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
 
     const Frame frame = frame_around(n);
-    const BsdfSample s = gltf_sample(
-        load_surface(materials, surfaces, stride, slot), to_local(frame, scale3(direction, -1.0f)),
-        u, choice);
-    const Vec3 wi = to_world(frame, s.wi);
+    const Surface surface = load_surface(materials, surfaces, stride, slot);
+    const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
+    const BsdfSample s = gltf_sample(surface, wo, u, choice);
+    const float side = HAS_TRANSMISSION && s.through ? -1.0f : 1.0f;
+    Vec3 wi = to_world(frame, s.wi);
+    float pdf_w = s.pdf_w;
+    if (HAS_SHADING_NORMALS) {
+        wi = select3(side * dot3(ng, wi) < 0.0f, mirror3(wi, ng), wi);
+        const float both = scatter_towards(surface, frame, ng, wo, wi).pdf_w;
+        pdf_w = pdf_w == PDF_CERTAIN ? pdf_w : both;
+    }
     // a direction that is no number makes the throughput none, which accumulate finds
     const float spoilt = 0.0f * (wi.x + wi.y + wi.z);
     const Vec3 weight = vec3(s.weight.x + spoilt, s.weight.y + spoilt, s.weight.z + spoilt);
     const Vec3 throughput = mul3(carried, weight);
-    // A direction on the far side of the face would leak light through it: it counts as absorbed.
+    // A direction along the face would leak light through it: it counts as absorbed.
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    goes_on *= s.wi.z <= 0.0f ? 0.0f : 1.0f;
-    goes_on *= dot3(ng, wi) <= 0.0f ? 0.0f : 1.0f;
+    goes_on *= side * s.wi.z <= 0.0f ? 0.0f : 1.0f;
+    goes_on *= side * dot3(ng, wi) <= 0.0f ? 0.0f : 1.0f;
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;
     const int continues = goes_on > 0.0f;
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? primitive : HIT_ENDED);
     store3(
         PLANE(rays, RAY_ORIGIN_X), stride, slot,
-        leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), ng));
+        leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), scale3(ng, side)));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
-    PLANE(throughputs, THROUGHPUT_PDF)[slot] = s.pdf_w;
+    PLANE(throughputs, THROUGHPUT_PDF)[slot] = pdf_w;
     PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
     if (HAS_MEDIA) start_at_origin(path_media, stride, slot);
 }

@@ -1,20 +1,23 @@
 // Adds what the surface that was hit emits towards the viewer.
 //
-// reads: rays, hits, surfaces, throughputs, materials, lights
+// reads: rays, hits, surfaces, throughputs, triangles, materials, lights, textures
 //
 // writes: radiances
 //
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "geometry/surface_texture.cl"
 #include "lights/area_light.cl"
 #include "shared/params.h"
 
 kernel void shade_emission(
     constant const RenderParams* restrict settings,
     const uint slots,
+    global const float* restrict triangles,
     global const DeviceMaterial* restrict materials,
     global const DeviceLight* restrict lights,
+    TEXTURE_PARAMETERS,
     global const float* restrict rays,
     global const float* restrict hits,
     global const float* restrict surfaces,
@@ -29,7 +32,14 @@ kernel void shade_emission(
     if (row == NO_LIGHT) return;
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
-    const Vec3 emission = vec3(material->emission_r, material->emission_g, material->emission_b);
+    Vec3 emission = vec3(material->emission_r, material->emission_g, material->emission_b);
+    if (HAS_EMISSION_TEXTURES) {
+        const size_t primitive = (size_t)as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+        emission = mul3(
+            emission, emission_on_triangle(
+                          TEXTURES, triangles + TRIANGLE_FLOATS * primitive,
+                          PLANE(hits, HIT_U)[slot], PLANE(hits, HIT_V)[slot]));
+    }
     const float pdf_w = PLANE(throughputs, THROUGHPUT_PDF)[slot];
 
     // Light sampling could have chosen this point too: leave it its share (direct: all of it).

@@ -190,6 +190,11 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option("--pool", o.pool, "Path slots; default the device's")
         ->check(CLI::Range(1U, 1U << 24U))
         ->type_name("SLOTS");
+    app.add_option(
+           "--max-texels", o.max_texels,
+           "Refuse scenes whose images have more Mi texels in all; default 256")
+        ->check(CLI::Range(1U, 4096U))
+        ->type_name("MI");
 }
 
 RenderJob prepare_job(const RenderOptions& options) {
@@ -209,7 +214,7 @@ RenderJob prepare_job(const RenderOptions& options) {
     parse_budget(options, settings);
 
     const auto start = std::chrono::steady_clock::now();
-    job.scene = load_gltf(options.scene, options.scene_of_file);
+    job.scene = load_gltf(options.scene, options.scene_of_file, options.max_texels << 20U);
     job.scene.environment = parse_environment(options);
     settings.camera = parse_camera(options, job.scene);
     parse_size(options.size, settings.camera, settings);

@@ -1,6 +1,7 @@
 // The options that `render` and `profile` share, and what they amount to.
 #pragma once
 
+#include "scene/gltf_loader.h"
 #include "wavefront/renderer.h"
 
 #include <filesystem>
@@ -37,6 +38,7 @@ struct RenderOptions {
     std::filesystem::path environment;
     std::string environment_radiance;
     uint32_t pool = 0;
+    uint64_t max_texels = default_most_texels >> 20U;  // [2^20]
 };
 
 void add_render_options(CLI::App& app, RenderOptions& options);

@@ -6,6 +6,7 @@
 #include "scene/light_tables.h"
 #include "scene/media_tables.h"
 #include "scene/normalise.h"
+#include "scene/texture_tables.h"
 #include "shared/scene.h"
 
 namespace wavepath {
@@ -17,7 +18,8 @@ struct SceneBuffers {
         const NormalisedScene& geometry,
         const Bvh& bvh,
         const LightTables& tables,
-        const MediaTables& media_tables);
+        const MediaTables& media_tables,
+        const TextureTables& texture_tables);
 
     DeviceArray<BvhNode> nodes;
     DeviceArray<TriangleBlock> blocks;
@@ -27,7 +29,19 @@ struct SceneBuffers {
     DeviceArray<DeviceMedium> media;
     DeviceArray<EnvironmentEntry> environment;
 
+    DeviceArray<DeviceTexture> textures;  // TEXTURE_USES a material
+    std::array<DeviceArray<cl_uint>, TEXTURE_MOST_PAGES> texels;
+
     std::size_t bytes() const;
+    std::size_t texture_bytes() const;  // of which textures and texels
+
+  private:
+    // From word `first` of all pages on.
+    void write_texels(
+        const Device& device,
+        uint64_t page_words,
+        uint64_t first,
+        const std::vector<cl_uint>& words) const;
 };
 
 }  // namespace wavepath

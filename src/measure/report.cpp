@@ -24,12 +24,22 @@ uint64_t peak_host_memory() {
     return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+ordered_json image_reports(const Scene& scene) {
+    ordered_json images = ordered_json::array();
+    for (const TextureImage& image : scene.images)
+        images.push_back(
+            {{"width", image.width}, {"height", image.height}, {"bits", image.wide ? 16 : 8}});
+    return images;
+}
+
 ordered_json scene_report(const RenderJob& job, const RenderResult& result) {
     return {
         {"name", job.scene.name},
         {"triangles", result.triangles},
         {"zero_area_triangles", result.dropped_triangles},
         {"materials", job.scene.materials.size()},
+        {"images", image_reports(job.scene)},
+        {"texture_pages", result.texture_pages},
         {"lights", result.lights},
         {"bvh_nodes", result.bvh_nodes},
         {"bvh_blocks", result.bvh_blocks},
@@ -58,9 +68,8 @@ ordered_json rays_report(const RenderResult& result) {
 
 ordered_json memory_report(const RenderResult& result) {
     return {
-        {"host_peak", peak_host_memory()},
-        {"device_scene", result.scene_bytes},
-        {"device_pool", result.pool_bytes},
+        {"host_peak", peak_host_memory()},         {"device_scene", result.scene_bytes},
+        {"device_textures", result.texture_bytes}, {"device_pool", result.pool_bytes},
         {"device_film", result.film_bytes},
     };
 }

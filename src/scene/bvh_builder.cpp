@@ -266,4 +266,10 @@ Bvh build_bvh(const std::vector<float>& positions) {
     return std::move(best.bvh);
 }
 
+void mark_holes(Bvh& bvh, const std::vector<bool>& holes) {
+    for (TriangleBlock& block : bvh.blocks)
+        for (shared_uint& primitive : block.primitives)
+            if (primitive != BVH_EMPTY && holes[primitive]) primitive |= BVH_HOLES;
+}
+
 }  // namespace wavepath

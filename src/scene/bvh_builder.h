@@ -17,4 +17,7 @@ struct Bvh {
 // (within 0.5 of the origin: the kernels' margins rest on it); triangles of zero area are left out.
 Bvh build_bvh(const std::vector<float>& positions);
 
+// Marks the triangles that let some rays pass (BVH_HOLES); one flag a triangle.
+void mark_holes(Bvh& bvh, const std::vector<bool>& holes);
+
 }  // namespace wavepath

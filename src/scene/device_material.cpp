@@ -9,7 +9,8 @@ namespace {
 float dielectric_f0(const Material& material, std::size_t channel) {
     if (material.ior == 0) return 1;
     const float ratio = (material.ior - 1) / (material.ior + 1);
-    return std::min(ratio * ratio * material.specular_color[channel], 1.0F);
+    const float f0 = ratio * ratio * material.specular_color[channel];
+    return material.has(TEXTURE_SPECULAR_COLOR) ? f0 : std::min(f0, 1.0F);
 }
 
 cl_uint device_boundary(Boundary boundary) {
@@ -40,6 +41,7 @@ DeviceMaterial device_material(const Material& material, uint32_t medium) {
     d.emission_g = material.emission[1];
     d.emission_b = material.emission[2];
     d.alpha = material.roughness * material.roughness;
+    d.transmission = material.transmission;
     d.double_sided = material.double_sided ? 1 : 0;
     d.boundary = device_boundary(material.boundary);
     d.medium = medium;
@@ -48,7 +50,7 @@ DeviceMaterial device_material(const Material& material, uint32_t medium) {
 
 bool reflects_specularly(const Material& material) {
     return material.boundary == Boundary::opaque &&
-           (material.metallic > 0 || material.specular > 0);
+           (material.metallic > 0 || material.specular > 0 || material.transmission > 0);
 }
 
 }  // namespace wavepath

@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 constexpr auto supported_extensions = std::to_array<std::string_view>({
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
+    "EXT_texture_webp",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
@@ -30,11 +31,13 @@ constexpr auto supported_extensions = std::to_array<std::string_view>({
     "KHR_materials_scatter",
     "KHR_materials_specular",
     "KHR_materials_transmission",
+    "KHR_materials_unlit",
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_materials_volume_scatter",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
+    "KHR_texture_transform",
 });
 
 // Magic, version, length; length and type of the JSON chunk.
@@ -115,9 +118,19 @@ bool is_file_beside_scene(const std::string& path, void*) {
     return fs::path(path).is_absolute() && fs::is_regular_file(path, status);
 }
 
-// tinygltf would decode every image while it parses, and fail for one that it cannot decode.
+// tinygltf would decode every image while it parses, and fail for one that it cannot decode. Those
+// in buffer views are left there: their range has not been checked yet.
 bool leave_image_encoded(
-    tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+    tinygltf::Image* image,
+    int,
+    std::string*,
+    std::string*,
+    int,
+    int,
+    const unsigned char* bytes,
+    int size,
+    void*) {
+    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
     return true;
 }
 

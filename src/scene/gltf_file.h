@@ -43,9 +43,9 @@ struct GltfFile {
     }
 };
 
-// Parses a .gltf or .glb file with its buffers, told apart by content. Images are never decoded and
-// may be missing. Throws Error for what is no glTF 2.0, and for a required extension that is not
-// supported, which is named first.
+// Parses a .gltf or .glb file with its buffers, told apart by content. Images stay encoded, in
+// tinygltf::Image::image or their buffer view, and may be missing. Throws Error for what is no
+// glTF 2.0, and for a required extension that is not supported, which is named first.
 GltfFile read_gltf_file(const std::filesystem::path& path);
 
 bool is_supported_extension(std::string_view name);

@@ -7,6 +7,7 @@
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_skin.h"
+#include "scene/gltf_texture.h"
 #include "scene/host_memory.h"
 #include "scene/transform.h"
 
@@ -92,9 +93,8 @@ class MeshInstancer {
     Range read(int mesh, const Pose& pose) {
         const auto [known, is_new] = read_.try_emplace({mesh, pose});
         if (!is_new) return known->second;
-        const auto default_material = static_cast<std::uint32_t>(scene_.materials.size() - 1);
         const auto first = static_cast<std::uint32_t>(scene_.primitives.size());
-        for (Primitive& primitive : read_mesh(file_, mesh, pose, default_material, ignored_))
+        for (Primitive& primitive : read_mesh(file_, mesh, pose, scene_.materials, ignored_))
             scene_.primitives.push_back(std::move(primitive));
         return known->second = {first, static_cast<std::uint32_t>(scene_.primitives.size())};
     }
@@ -110,12 +110,6 @@ class MeshInstancer {
 };
 
 void note_ignored_features(const tinygltf::Model& model, Ignored& ignored) {
-    ignored.add("textures", "rendered with the material factors alone", model.textures.size());
-    ignored.add(
-        "materials with alpha", "rendered opaque",
-        static_cast<std::size_t>(std::ranges::count_if(model.materials, [](const auto& material) {
-            return material.alphaMode == "MASK" || material.alphaMode == "BLEND";
-        })));
     ignored.add("animations", "rendered at rest", model.animations.size());
 }
 
@@ -141,7 +135,8 @@ std::vector<std::string> ignored_extensions(const tinygltf::Model& model) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path, const std::string& selector) {
+Scene load_gltf(
+    const std::filesystem::path& path, const std::string& selector, uint64_t most_texels) {
     const GltfFile file = read_gltf_file(path);
     Scene scene;
     scene.name = path.string();
@@ -163,6 +158,7 @@ Scene load_gltf(const std::filesystem::path& path, const std::string& selector) 
             "holds no triangles; add a mesh to it or choose another {}",
             file.model.scenes.size() > 1 ? "--scene" : "file");
 
+    load_images(file, scene, most_texels);
     drop_default_material_if_unused(scene);
     scene.ignored = ignored.lines();
     std::ranges::move(ignored_extensions(file.model), std::back_inserter(scene.ignored));

@@ -1,6 +1,7 @@
 #include "scene/gltf_material.h"
 
 #include "scene/gltf_medium.h"
+#include "scene/gltf_texture.h"
 
 #include <algorithm>
 #include <limits>
@@ -30,6 +31,10 @@ class MaterialReader {
         read_emission(material);
         read_ior(material);
         read_specular(material);
+        read_transmission(material);
+        read_alpha(material);
+        read_textures(material);
+        if (find_extension(source_.extensions, "KHR_materials_unlit")) make_unlit(material);
         return material;
     }
 
@@ -77,6 +82,63 @@ class MaterialReader {
         material.specular_color = color(
             "specularColorFactor",
             numbers(file_, where_, *extension, "specularColorFactor", {1, 1, 1}), unbounded);
+    }
+
+    void read_transmission(Material& material) const {
+        const auto* extension = find_extension(source_.extensions, "KHR_materials_transmission");
+        if (!extension) return;
+        material.transmission = factor(
+            "transmissionFactor", number(file_, where_, *extension, "transmissionFactor", 0), 1);
+    }
+
+    void read_alpha(Material& material) const {
+        if (source_.alphaMode != "OPAQUE" && source_.alphaMode != "MASK" &&
+            source_.alphaMode != "BLEND")
+            file_.fail(
+                where_, "alphaMode \"{}\" is unknown; use OPAQUE, MASK or BLEND",
+                one_line(source_.alphaMode));
+        material.alpha_mode = source_.alphaMode == "MASK"    ? AlphaMode::mask
+                              : source_.alphaMode == "BLEND" ? AlphaMode::blend
+                                                             : AlphaMode::opaque;
+        const std::vector<double>& base = source_.pbrMetallicRoughness.baseColorFactor;
+        if (base.size() > 3) material.alpha = factor("baseColorFactor", base[3], 1);
+        material.alpha_cutoff = factor("alphaCutoff", source_.alphaCutoff, unbounded);
+    }
+
+    void read_textures(Material& material) const {
+        const auto& pbr = source_.pbrMetallicRoughness;
+        TextureReader reader(file_, where_, material);
+        reader.read(TEXTURE_BASE_COLOR, pbr.baseColorTexture);
+        reader.read(TEXTURE_METALLIC_ROUGHNESS, pbr.metallicRoughnessTexture);
+        reader.read(TEXTURE_NORMAL, source_.normalTexture);
+        reader.read(TEXTURE_EMISSION, source_.emissiveTexture);
+        material.normal_scale =
+            factor("normalTexture.scale", source_.normalTexture.scale, unbounded, -unbounded);
+        if (const auto* extension = find_extension(source_.extensions, "KHR_materials_specular")) {
+            reader.read(TEXTURE_SPECULAR, *extension, "specularTexture");
+            reader.read(TEXTURE_SPECULAR_COLOR, *extension, "specularColorTexture");
+        }
+        if (const auto* extension =
+                find_extension(source_.extensions, "KHR_materials_transmission"))
+            reader.read(TEXTURE_TRANSMISSION, *extension, "transmissionTexture");
+    }
+
+    // To light a scene a colour that "is not affected by lighting" [KHR_materials_unlit] is one
+    // that emits itself, to either side, and reflects nothing.
+    static void make_unlit(Material& material) {
+        material.unlit = true;
+        material.emission = material.base_color;
+        material.textures[TEXTURE_EMISSION] = material.texture(TEXTURE_BASE_COLOR);
+        material.double_sided = true;
+        material.base_color = {0, 0, 0};
+        material.metallic = 0;
+        material.specular = 0;
+        material.transmission = 0;
+        material.textures[TEXTURE_METALLIC_ROUGHNESS] = {};
+        material.textures[TEXTURE_NORMAL] = {};
+        material.textures[TEXTURE_SPECULAR] = {};
+        material.textures[TEXTURE_SPECULAR_COLOR] = {};
+        material.textures[TEXTURE_TRANSMISSION] = {};
     }
 
     const GltfFile& file_;

@@ -1,4 +1,4 @@
-// Material factors of a glTF file.
+// Materials of a glTF file.
 #pragma once
 
 #include "scene/gltf_file.h"
@@ -10,7 +10,8 @@
 namespace wavepath {
 
 // The file's materials in order, then the default one: white, metallic 1, roughness 1 [glTF 2.0,
-// section 3.9.6]. Factors outside the range glTF gives them are an error: a base color above 1
+// section 3.9.6]. Their textures name images of the file, which load_images (gltf_texture.h) makes
+// those of the scene. Factors outside the range glTF gives them are an error: a base color above 1
 // would make energy.
 std::vector<Material> read_materials(const GltfFile& file, Ignored& ignored);
 

@@ -167,20 +167,20 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
             "extras.{} needs KHR_materials_transmission with transmissionFactor above 0 and "
             "KHR_materials_volume with thicknessFactor above 0; add them",
             extras_key);
-    if (!(transmission > 0)) return;
-    if (!encloses)
-        ignored.add("thin transmitting materials", "rendered opaque");
-    else if (transmission < 1 || material.metallic > 0)
-        ignored.add("volumes that transmit in part", "rendered opaque");
+    if (!encloses || material.unlit) return;
+    constexpr const char* instead = "rendered as thin walls";
+    if (transmission < 1 || material.metallic > 0)
+        ignored.add("volumes that transmit in part", instead);
     else if (material.ior != 1 && !is_smooth(material))
-        ignored.add("volumes that refract and are rough", "rendered opaque");
+        ignored.add("volumes that refract and are rough", instead);
     else if (material.ior < 1)
-        ignored.add("volumes that refract with ior 0", "rendered opaque");
+        ignored.add("volumes that refract with ior 0", instead);
     else if (material.ior == 1 && material.emits())
         reader.fail("is a boundary with ior 1 and emits; take emissiveFactor or the volume away");
     else {
         material.boundary = material.ior == 1 ? Boundary::index_matched : Boundary::dielectric;
         material.medium = reader.read();
+        material.transmission = 0;  // of thin walls
     }
 }
 

@@ -1,6 +1,7 @@
 #include "scene/gltf_mesh.h"
 
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_attributes.h"
 #include "scene/gltf_skin.h"
 #include "scene/transform.h"
 
@@ -179,8 +180,9 @@ std::vector<Primitive> read_mesh(
     const GltfFile& file,
     int index,
     const Pose& pose,
-    std::uint32_t default_material,
+    const std::vector<Material>& materials,
     Ignored& ignored) {
+    const auto default_material = static_cast<std::uint32_t>(materials.size() - 1);
     const tinygltf::Mesh& mesh = file.model.meshes[static_cast<std::size_t>(index)];
     std::vector<Primitive> primitives;
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
@@ -199,6 +201,9 @@ std::vector<Primitive> read_mesh(
         }
         Primitive primitive = PrimitiveReader(file, source, pose, where).read(default_material);
         if (primitive.indices.empty()) continue;
+        read_surface_attributes(
+            file, source, materials[primitive.material], where,
+            !pose.weights.empty() || !pose.joints.empty(), primitive, ignored);
         primitive.name = mesh.name.empty() ? label("mesh", index, "") : mesh.name;
         primitives.push_back(std::move(primitive));
     }

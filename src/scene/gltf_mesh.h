@@ -18,12 +18,12 @@ struct Pose {
 };
 
 // The primitives of mesh `index` that hold triangles, in order; points and lines are noted in
-// `ignored`. `default_material`: index of the material of primitives that name none.
+// `ignored`. Of `materials`, read_materials(), the last is that of primitives that name none.
 std::vector<Primitive> read_mesh(
     const GltfFile& file,
     int index,
     const Pose& pose,
-    std::uint32_t default_material,
+    const std::vector<Material>& materials,
     Ignored& ignored);
 
 }  // namespace wavepath

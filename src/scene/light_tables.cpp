@@ -1,9 +1,11 @@
 #include "scene/light_tables.h"
 
 #include "scene/alias_table.h"
+#include "scene/texture_tables.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace wavepath {
@@ -119,6 +121,26 @@ double append_map(std::vector<EnvironmentEntry>& entries, const Environment& map
     return total / solid_angles;
 }
 
+// What the emission textures leave of materials' emission, by material.
+class EmissionShares {
+  public:
+    explicit EmissionShares(const Scene& scene) : scene_(scene) {}
+
+    // 0 where no point of the material emits.
+    double of_triangle(const NormalisedScene& geometry, std::size_t triangle) {
+        const uint32_t material = geometry.materials[triangle];
+        if (!scene_.materials[material].has(TEXTURE_EMISSION)) return 1;
+        const Texture& texture = scene_.materials[material].texture(TEXTURE_EMISSION);
+        const TextureLuminance& luminance =
+            known_.try_emplace(material, texture, scene_.images[*texture.image]).first->second;
+        return luminance.over(&geometry.uvs[texture.uvs][6 * triangle]);
+    }
+
+  private:
+    const Scene& scene_;
+    std::map<uint32_t, TextureLuminance> known_;
+};
+
 }  // namespace
 
 LightTables build_light_tables(
@@ -130,9 +152,12 @@ LightTables build_light_tables(
     std::vector<double> weights;
     tables.triangle_lights.assign(geometry.triangle_count(), NO_LIGHT);
     double area = 0;
+    EmissionShares shares(scene);
     for (std::size_t t = 0; t < geometry.triangle_count(); ++t) {
         const Material& material = scene.materials[geometry.materials[t]];
         if (!material.emits()) continue;
+        const double share = shares.of_triangle(geometry, t);
+        if (share == 0) continue;
         DeviceLight light{};
         light.kind = LIGHT_TRIANGLE;
         light.primitive = static_cast<cl_uint>(t);
@@ -144,7 +169,7 @@ LightTables build_light_tables(
         tables.triangle_lights[t] = static_cast<uint32_t>(tables.lights.size());
         tables.lights.push_back(light);
         const double sides = material.double_sided ? 2 : 1;
-        const double power = std::numbers::pi * sides * luminance(material.emission);
+        const double power = std::numbers::pi * sides * luminance(material.emission) * share;
         weights.push_back(light.area * (choice == LightChoice::power ? power : 1.0));
         area += light.area;
     }

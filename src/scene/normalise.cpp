@@ -52,23 +52,78 @@ void append(std::vector<float>& to, const Vec3d& v) {
     for (const double x : v) to.push_back(static_cast<float>(x));
 }
 
+// What some triangle of the scene has, and so all of them.
+struct Attributes {
+    bool normals = false, colors = false, tangents = false, alphas = false;
+    std::array<bool, 2> uvs{};
+
+    void add(const Primitive& primitive) {
+        normals = normals || !primitive.normals.empty();
+        colors = colors || !primitive.colors.empty();
+        tangents = tangents || !primitive.tangents.empty();
+        alphas = alphas || !primitive.alphas.empty();
+        for (std::size_t k = 0; k < 2; ++k) uvs[k] = uvs[k] || !primitive.uvs[k].empty();
+    }
+};
+
+// A corner of a triangle: its vertex, and where it stands in Primitive::indices.
+struct Corner {
+    uint32_t vertex;
+    std::size_t place;
+};
+
+// Appends `width` floats of `values` for each corner, of its vertex; `missing` where there are
+// none.
+void append_floats(
+    std::vector<float>& to,
+    const std::vector<float>& values,
+    std::size_t width,
+    const std::array<Corner, 3>& corners,
+    float missing) {
+    for (const Corner& corner : corners)
+        for (std::size_t k = 0; k < width; ++k)
+            to.push_back(values.empty() ? missing : values[width * corner.vertex + k]);
+}
+
+Vec3d transform_direction(const Matrix4& m, const Vec3d& d) {
+    Vec3d r;
+    for (std::size_t k = 0; k < 3; ++k) r[k] = m[k] * d[0] + m[4 + k] * d[1] + m[8 + k] * d[2];
+    return normalized(r);
+}
+
+// A mirroring node turns bitangents round against normals and tangents.
+void append_tangents(
+    NormalisedScene& out,
+    const Primitive& primitive,
+    const Matrix4& to_world,
+    bool mirrored,
+    const std::array<Corner, 3>& corners) {
+    for (const Corner& corner : corners) {
+        const float* t =
+            primitive.tangents.empty() ? nullptr : &primitive.tangents[4 * corner.place];
+        append(out.tangents, t ? transform_direction(to_world, {t[0], t[1], t[2]}) : Vec3d{});
+    }
+    const float sign =
+        primitive.tangents.empty() ? 1 : primitive.tangents[4 * corners[0].place + 3];
+    out.bitangents.push_back(mirrored ? -sign : sign);
+}
+
 // Adds the triangles of one instance; corners are rounded to float first, as the device will see
 // them.
 void append_instance(
     NormalisedScene& out,
     const Primitive& primitive,
     const Matrix4& to_world,
-    bool normals,
-    bool colors) {
+    const Attributes& attributes) {
     const bool mirrored = dot(axis(to_world, 0), cross(axis(to_world, 1), axis(to_world, 2))) < 0;
     for (std::size_t t = 0; t + 2 < primitive.indices.size(); t += 3) {
-        std::array<uint32_t, 3> corners{
-            primitive.indices[t], primitive.indices[t + 1], primitive.indices[t + 2]};
+        std::array<Corner, 3> corners;
+        for (std::size_t c = 0; c < 3; ++c) corners[c] = {primitive.indices[t + c], t + c};
         if (mirrored) std::swap(corners[1], corners[2]);
         std::array<Vec3d, 3> p;
         for (std::size_t c = 0; c < 3; ++c) {
             p[c] = out.to_normalised(
-                transform_point(to_world, vec3_at(primitive.positions, corners[c])));
+                transform_point(to_world, vec3_at(primitive.positions, corners[c].vertex)));
             for (double& x : p[c]) x = static_cast<float>(x);
         }
         const Vec3d face = face_cross(p);
@@ -78,18 +133,18 @@ void append_instance(
         }
         for (const Vec3d& corner : p) append(out.positions, corner);
         out.materials.push_back(primitive.material);
-        if (normals) {
-            for (const uint32_t c : corners)
+        if (attributes.normals)
+            for (const Corner& c : corners)
                 append(
-                    out.normals, primitive.normals.empty()
-                                     ? normalized(face)
-                                     : transform_normal(to_world, vec3_at(primitive.normals, c)));
-        }
-        if (colors)
-            for (const uint32_t c : corners)
-                append(
-                    out.colors,
-                    primitive.colors.empty() ? Vec3d{1, 1, 1} : vec3_at(primitive.colors, c));
+                    out.normals,
+                    primitive.normals.empty()
+                        ? normalized(face)
+                        : transform_normal(to_world, vec3_at(primitive.normals, c.vertex)));
+        if (attributes.colors) append_floats(out.colors, primitive.colors, 3, corners, 1);
+        for (std::size_t k = 0; k < 2; ++k)
+            if (attributes.uvs[k]) append_floats(out.uvs[k], primitive.uvs[k], 2, corners, 0);
+        if (attributes.tangents) append_tangents(out, primitive, to_world, mirrored, corners);
+        if (attributes.alphas) append_floats(out.alphas, primitive.alphas, 1, corners, 1);
     }
 }
 
@@ -128,15 +183,11 @@ Extent extent_of(const Scene& scene) {
 NormalisedScene normalise(const Scene& scene) {
     NormalisedScene out;
     out.extent = extent_of(scene);
-    bool normals = false;
-    bool colors = false;
+    Attributes attributes;
+    for (const Instance& instance : scene.instances)
+        attributes.add(scene.primitives[instance.primitive]);
     for (const Instance& instance : scene.instances) {
-        normals = normals || !scene.primitives[instance.primitive].normals.empty();
-        colors = colors || !scene.primitives[instance.primitive].colors.empty();
-    }
-    for (const Instance& instance : scene.instances) {
-        append_instance(
-            out, scene.primitives[instance.primitive], instance.to_world, normals, colors);
+        append_instance(out, scene.primitives[instance.primitive], instance.to_world, attributes);
         out.ends.push_back(static_cast<uint32_t>(out.triangle_count()));
     }
     if (out.materials.empty())

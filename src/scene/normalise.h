@@ -21,9 +21,14 @@ Extent extent_of(const Scene& scene);
 // extent.centre + extent.metres * normalised.
 struct NormalisedScene {
     Extent extent;
-    std::vector<float> positions;     // 9 a triangle
-    std::vector<float> normals;       // 9 a triangle, or empty: every triangle is flat
-    std::vector<float> colors;        // 9 a triangle, or empty: all white
+    std::vector<float> positions;           // 9 a triangle
+    std::vector<float> normals;             // 9 a triangle, or empty: every triangle is flat
+    std::vector<float> colors;              // 9 a triangle, or empty: all white
+    std::array<std::vector<float>, 2> uvs;  // 6 a triangle, or empty: no texture uses the set
+    std::vector<float> tangents;            // 9 a triangle, or empty: there is no normal map
+    std::vector<float> bitangents;  // one a triangle with tangents: 1 or -1, for bitangent = that *
+                                    // cross(normal, tangent)
+    std::vector<float> alphas;      // 3 a triangle, or empty: all 1
     std::vector<uint32_t> materials;  // one a triangle
     std::vector<uint32_t> ends;       // of each instance's triangles
     std::vector<PunctualLight>

@@ -2,6 +2,8 @@
 // space).
 #pragma once
 
+#include "shared/texture.h"
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -34,7 +36,31 @@ struct Medium {
     bool scatters() const { return sigma_s[0] > 0 || sigma_s[1] > 0 || sigma_s[2] > 0; }
 };
 
-// glTF 2.0 metallic-roughness with KHR_materials_ior, _specular (factors) and _emissive_strength.
+// Texels as they are coded, RGBA, row by row from the top; what the codes mean is the texture's.
+struct TextureImage {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool wide = false;            // 16 bits a channel, else 8
+    std::vector<uint32_t> words;  // one a texel, red lowest; two where it is wide
+};
+
+enum class Wrap { repeat, mirror, clamp };
+
+// How a material reads an image.
+struct Texture {
+    std::optional<uint32_t> image;  // into Scene::images; none: 1 everywhere
+    uint32_t uvs = 0;               // into Material::uv_sets
+    Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+    bool nearest = false;  // else bilinear
+    bool srgb = false;
+    // KHR_texture_transform: image coordinates are (a u + b v + c, d u + e v + f).
+    std::array<float, 6> transform{1, 0, 0, 0, 1, 0};
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+// glTF 2.0 metallic-roughness with KHR_materials_ior, _specular, _transmission (thin walls),
+// _emissive_strength and _unlit.
 struct Material {
     std::string name;
     Rgb base_color{1, 1, 1};  // [1]
@@ -43,20 +69,35 @@ struct Material {
     float ior = 1.5F;    // [1] >= 1, or 0: Fresnel reflectance 1 (legacy mode of KHR_materials_ior)
     float specular = 1;  // [1] specularFactor: weight of the dielectric's specular layer
     Rgb specular_color{1, 1, 1};  // [1] specularColorFactor: tints its F0
-    Rgb emission{0, 0, 0};        // radiance: emissiveFactor * emissiveStrength
-    bool double_sided = false;    // true: emits from both faces
+    float transmission = 0;     // [1] share of what enters that goes straight through (thin walls)
+    Rgb emission{0, 0, 0};      // radiance: emissiveFactor * emissiveStrength
+    bool double_sided = false;  // true: emits from both faces
     Boundary boundary = Boundary::opaque;
-    Medium medium{};  // what it encloses, unless it is opaque
+    Medium medium{};     // what it encloses, unless it is opaque
+    bool unlit = false;  // reflects nothing; vertex colours multiply its emission
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha = 1;         // [1] factor of base colour's alpha
+    float alpha_cutoff = 0;  // [1] of AlphaMode::mask: what is below is not there
+    float normal_scale = 1;  // [1] of TEXTURE_NORMAL's x and y
+    std::array<Texture, TEXTURE_USES> textures{};  // what each multiplies: shared/texture.h
+    std::vector<uint32_t> uv_sets{};               // TEXCOORD_n that the textures use, at most two
 
+    const Texture& texture(TextureUse use) const { return textures[use]; }
+    bool has(TextureUse use) const { return textures[use].image.has_value(); }
     bool emits() const { return emission[0] > 0 || emission[1] > 0 || emission[2] > 0; }
 };
 
 // One glTF mesh primitive as a list of triangles in local space.
 struct Primitive {
-    std::string name;               // "mesh name" or "mesh 3", for messages
-    std::vector<float> positions;   // 3 a vertex [m]
-    std::vector<float> normals;     // 3 a vertex, unit, or empty: flat shading
-    std::vector<float> colors;      // 3 a vertex, linear, or empty: white
+    std::string name;                       // "mesh name" or "mesh 3", for messages
+    std::vector<float> positions;           // 3 a vertex [m]
+    std::vector<float> normals;             // 3 a vertex, unit, or empty: flat shading
+    std::vector<float> colors;              // 3 a vertex, linear, or empty: white
+    std::vector<float> alphas;              // 1 a vertex, or empty: 1
+    std::array<std::vector<float>, 2> uvs;  // 2 a vertex, of Material::uv_sets; or empty
+    // 4 a corner of the triangles: unit tangent, and 1 or -1 for bitangent = that * cross(normal,
+    // tangent). Empty where the material has no normal map.
+    std::vector<float> tangents;
     std::vector<uint32_t> indices;  // 3 a triangle
     uint32_t material = 0;          // into Scene::materials
 };
@@ -103,6 +144,7 @@ struct Environment {
 struct Scene {
     std::string name;                 // its file
     std::vector<Material> materials;  // at least one
+    std::vector<TextureImage> images;
     std::vector<Primitive> primitives;
     std::vector<Instance> instances;    // of primitives, in depth-first order of the node tree
     std::vector<Camera> cameras;        // of the scene, in depth-first order

@@ -14,7 +14,17 @@ std::string Features::defines() const {
     };
     define("HAS_VERTEX_NORMALS", vertex_normals);
     define("HAS_VERTEX_COLORS", vertex_colors);
+    define("HAS_TEXTURES", textures);
+    text += fmt::format("#define UV_SETS {}\n", uv_sets);
+    define("HAS_NORMAL_MAPS", normal_maps);
+    define("HAS_LOBE_TEXTURES", lobe_textures);
+    define("HAS_EMISSION_TEXTURES", emission_textures);
+    define("HAS_ALPHA", alpha);
+    define("HAS_VERTEX_ALPHAS", vertex_alphas);
+    text += fmt::format("#define TEXTURE_PAGES {}\n", texture_pages);
+    text += fmt::format("#define TEXTURE_PAGE_WORDS {}u\n", texture_page_words);
     define("HAS_SPECULAR", specular);
+    define("HAS_TRANSMISSION", transmission);
     define("HAS_AREA_LIGHTS", area_lights);
     define("HAS_PUNCTUAL_LIGHTS", punctual_lights);
     define("HAS_ENVIRONMENT", environment);
@@ -31,19 +41,48 @@ std::string Features::defines() const {
     return text;
 }
 
+std::vector<bool> worn_materials(const Scene& scene, const NormalisedScene& geometry) {
+    std::vector<bool> worn(scene.materials.size(), false);
+    for (const uint32_t material : geometry.materials) worn[material] = true;
+    return worn;
+}
+
 Features features_of(
     const Scene& scene,
     const NormalisedScene& geometry,
     const LightTables& lights,
     const MediaTables& media,
+    const TextureTables& textures,
     const Method& method,
     uint32_t split_levels,
     bool sobol) {
     Features f;
     f.vertex_normals = !geometry.normals.empty();
     f.vertex_colors = !geometry.colors.empty();
-    f.specular = std::ranges::any_of(
-        geometry.materials, [&](uint32_t m) { return reflects_specularly(scene.materials[m]); });
+    const std::vector<bool> worn = worn_materials(scene, geometry);
+    for (std::size_t m = 0; m < worn.size(); ++m) {
+        if (!worn[m]) continue;
+        const Material& material = scene.materials[m];
+        const bool reflects = reflects_specularly(material);
+        f.specular = f.specular || reflects;
+        f.lobe_textures =
+            f.lobe_textures ||
+            (reflects &&
+             (material.has(TEXTURE_METALLIC_ROUGHNESS) || material.has(TEXTURE_SPECULAR) ||
+              material.has(TEXTURE_SPECULAR_COLOR) || material.has(TEXTURE_TRANSMISSION)));
+        f.textures = f.textures || (!material.unlit && material.has(TEXTURE_BASE_COLOR));
+        f.emission_textures =
+            f.emission_textures ||
+            (material.emits() && (material.has(TEXTURE_EMISSION) || material.unlit));
+        f.transmission = f.transmission || material.transmission > 0;
+        f.alpha = f.alpha || material.alpha_mode != AlphaMode::opaque;
+    }
+    f.normal_maps = !geometry.tangents.empty();
+    f.textures = f.textures || f.lobe_textures || f.normal_maps;
+    f.uv_sets = (geometry.uvs[0].empty() ? 0U : 1U) + (geometry.uvs[1].empty() ? 0U : 1U);
+    f.vertex_alphas = !geometry.alphas.empty();
+    f.texture_pages = textures.pages();
+    f.texture_page_words = textures.page_words;
     f.area_lights =
         std::ranges::any_of(lights.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
     f.punctual_lights = !geometry.lights.empty();

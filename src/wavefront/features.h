@@ -5,6 +5,7 @@
 #include "scene/media_tables.h"
 #include "scene/normalise.h"
 #include "scene/scene.h"
+#include "scene/texture_tables.h"
 #include "wavefront/method.h"
 
 #include <string>
@@ -14,7 +15,17 @@ namespace wavepath {
 struct Features {
     bool vertex_normals = false;
     bool vertex_colors = false;
+    bool textures = false;  // of surfaces; emission and alpha are looked up where they are needed
+    uint32_t uv_sets = 0;
+    bool normal_maps = false;
+    bool lobe_textures = false;
+    bool emission_textures = false;
+    bool alpha = false;
+    bool vertex_alphas = false;
+    uint32_t texture_pages = 0;
+    uint64_t texture_page_words = 0;
     bool specular = false;
+    bool transmission = false;
     bool area_lights = false;
     bool punctual_lights = false;
     bool environment = false;
@@ -30,15 +41,21 @@ struct Features {
     bool sobol = true;
     uint32_t rays_per_item = 1;  // that a work-item of intersect and occlusion traces
 
+    bool shading_normals() const { return vertex_normals || normal_maps; }
+
     // The #define lines that kernels/shared/features.h expects.
     std::string defines() const;
 };
+
+// Whether some triangle wears a material, by material.
+std::vector<bool> worn_materials(const Scene& scene, const NormalisedScene& geometry);
 
 Features features_of(
     const Scene& scene,
     const NormalisedScene& geometry,
     const LightTables& lights,
     const MediaTables& media,
+    const TextureTables& textures,
     const Method& method,
     uint32_t split_levels,
     bool sobol);

@@ -11,6 +11,11 @@ uint32_t padded(uint32_t slots) {
     return (slots + 15) / 16 * 16 + 80;
 }
 
+uint32_t surface_planes(const Features& features) {
+    if (features.lobe_textures) return SURFACE_PLANES;
+    return features.shading_normals() ? SURFACE_PLANES_SHADED : SURFACE_PLANES_FLAT;
+}
+
 }  // namespace
 
 PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& features)
@@ -18,10 +23,7 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
       stride(padded(slot_count)),
       rays(device, std::size_t{RAY_PLANES} * stride, "path pool"),
       hits(device, std::size_t{HIT_PLANES} * stride, "path pool"),
-      surfaces(
-          device,
-          std::size_t{features.vertex_normals ? SURFACE_PLANES : SURFACE_PLANES_FLAT} * stride,
-          "path pool"),
+      surfaces(device, std::size_t{surface_planes(features)} * stride, "path pool"),
       throughputs(device, std::size_t{THROUGHPUT_PLANES} * stride, "path pool"),
       radiances(device, std::size_t{RADIANCE_PLANES} * stride, "path pool"),
       shadows(

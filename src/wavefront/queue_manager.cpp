@@ -28,6 +28,7 @@ std::optional<StageType> stage_if(
 std::vector<std::string> QueueManager::kernel_files(const Features& features) {
     std::vector<std::string> names{"assign_units", "generate_rays", "intersect", "scatter_queue",
                                    "move_paths",   "interact",      "first_hit"};
+    if (features.textures) names.emplace_back("apply_textures");
     if (features.environment) names.emplace_back("shade_miss");
     if (features.area_lights) names.emplace_back("shade_emission");
     if (features.sample_lights)
@@ -70,6 +71,8 @@ QueueManager::QueueManager(
       sample_distance_(stage_if<decltype(sample_distance_)::value_type>(
           features.media, program, "sample_distance", groups.streaming, profile)),
       interact_(program, "interact", groups.streaming, profile),
+      apply_textures_(stage_if<decltype(apply_textures_)::value_type>(
+          features.textures, program, "apply_textures", groups.streaming, profile)),
       pass_boundary_(stage_if<decltype(pass_boundary_)::value_type>(
           features.media, program, "pass_boundary", groups.streaming, profile)),
       first_hit_(program, "first_hit", groups.streaming, profile),
@@ -123,8 +126,9 @@ bool QueueManager::render(
             pool_.throughputs, pool_.radiances, pool_.media);
         const uint32_t ray_items = (slots + features_.rays_per_item - 1) / features_.rays_per_item;
         intersect_.launch(
-            device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, pool_.rays,
-            pool_.media, pool_.hits);
+            device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
+            scene_.textures, scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3],
+            pool_.rays, pool_.media, pool_.ids, pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
         if (sample_distance_)
             sample_distance_->launch(
@@ -133,6 +137,11 @@ bool QueueManager::render(
         interact_.launch(
             device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
             pool_.hits, pool_.surfaces);
+        if (apply_textures_)
+            apply_textures_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.textures,
+                scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3], pool_.rays,
+                pool_.hits, pool_.surfaces);
         if (pass_boundary_)
             pass_boundary_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
@@ -145,8 +154,10 @@ bool QueueManager::render(
                 pool_.throughputs, pool_.radiances);
         if (shade_emission_)
             shade_emission_->launch(
-                device_, slots, params_, slots, scene_.materials, scene_.lights, pool_.rays,
-                pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
+                scene_.textures, scene_.texels[0], scene_.texels[1], scene_.texels[2],
+                scene_.texels[3], pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs,
+                pool_.radiances);
         if (refract_boundary_)
             refract_boundary_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,
@@ -154,17 +165,21 @@ bool QueueManager::render(
         if (direct_light_)
             direct_light_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
-                scene_.environment, scene_.media, pool_.rays, pool_.hits, pool_.surfaces,
-                pool_.throughputs, pool_.ids, pool_.media, pool_.shadows);
+                scene_.environment, scene_.media, scene_.textures, scene_.texels[0],
+                scene_.texels[1], scene_.texels[2], scene_.texels[3], pool_.rays, pool_.hits,
+                pool_.surfaces, pool_.throughputs, pool_.ids, pool_.media, pool_.shadows);
         if (occlusion_)
             occlusion_->launch(
                 device_, (slots + features_.rays_per_item - 1) / features_.rays_per_item, params_,
-                slots, scene_.nodes, scene_.blocks, pool_.shadows, pool_.radiances, pool_.fates);
+                slots, scene_.nodes, scene_.blocks, scene_.triangles, scene_.textures,
+                scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3],
+                pool_.shadows, pool_.ids, pool_.radiances, pool_.fates);
         if (connect_through_media_)
             connect_through_media_->launch(
                 device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
-                scene_.materials, scene_.media, pool_.shadows, pool_.media, pool_.radiances,
-                pool_.fates);
+                scene_.materials, scene_.media, scene_.textures, scene_.texels[0], scene_.texels[1],
+                scene_.texels[2], scene_.texels[3], pool_.shadows, pool_.media, pool_.ids,
+                pool_.radiances, pool_.fates);
         sample_indirect_.launch(
             device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays,
             pool_.hits, pool_.throughputs, pool_.ids, pool_.media, pool_.branches);

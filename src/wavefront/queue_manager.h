@@ -81,6 +81,7 @@ class QueueManager {
     using Lights = Array<DeviceLight>;
     using Media = Array<DeviceMedium>;
     using Map = Array<EnvironmentEntry>;
+    using Textures = Array<DeviceTexture>;
     using Nodes = Array<BvhNode>;
     using Blocks = Array<TriangleBlock>;
     using Fates = Array<cl_uchar>;
@@ -121,16 +122,61 @@ class QueueManager {
 
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats, Floats> generate_rays_;
-    Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Floats> intersect_;
+    // Textures and four pages of texels are TEXTURE_PARAMETERS of materials/texture.cl.
+    Stage<
+        Params,
+        cl_uint,
+        Nodes,
+        Blocks,
+        Floats,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
+        Floats,
+        Floats,
+        Uints,
+        Floats>
+        intersect_;
     std::optional<
         Stage<Params, cl_uint, Media, Floats, Uints, Floats, Floats, Floats, Floats, Floats>>
         sample_distance_;
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Materials,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
+        Floats,
+        Floats,
+        Floats>>
+        apply_textures_;
     std::optional<Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats, Floats, Floats>>
         pass_boundary_;
     Stage<Params, cl_uint, Floats, Floats, Uints, Floats> first_hit_;
     std::optional<Stage<Params, cl_uint, Map, Floats, Floats, Floats, Floats>> shade_miss_;
-    std::optional<Stage<Params, cl_uint, Materials, Lights, Floats, Floats, Floats, Floats, Floats>>
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Materials,
+        Lights,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats>>
         shade_emission_;
     std::optional<Stage<
         Params,
@@ -153,6 +199,11 @@ class QueueManager {
         Lights,
         Map,
         Media,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
         Floats,
         Floats,
         Floats,
@@ -161,7 +212,22 @@ class QueueManager {
         Floats,
         Floats>>
         direct_light_;
-    std::optional<Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Fates>> occlusion_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Nodes,
+        Blocks,
+        Floats,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
+        Floats,
+        Uints,
+        Floats,
+        Fates>>
+        occlusion_;
     std::optional<Stage<
         Params,
         cl_uint,
@@ -170,8 +236,14 @@ class QueueManager {
         Floats,
         Materials,
         Media,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
         Floats,
         Floats,
+        Uints,
         Floats,
         Fates>>
         connect_through_media_;

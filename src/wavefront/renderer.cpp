@@ -82,6 +82,13 @@ RenderParams scene_params(
     return params;
 }
 
+std::vector<bool> triangles_with_holes(const Scene& scene, const NormalisedScene& geometry) {
+    std::vector<bool> holes;
+    for (const uint32_t material : geometry.materials)
+        holes.push_back(scene.materials[material].alpha_mode != AlphaMode::opaque);
+    return holes;
+}
+
 // PoCL compiles a kernel at its first launch: one short path through the whole chain, into a film
 // of its own, before the clock starts.
 void warm_up(
@@ -176,17 +183,20 @@ RenderResult render(
     if (!media.media.empty() && settings.splits > 1)
         throw Error(
             "--splits: does not work in scenes with media yet ({}); leave it out", scene.name);
+    const TextureTables textures =
+        build_texture_tables(scene, worn_materials(scene, geometry), device.info.max_allocation);
     Features features = features_of(
-        scene, geometry, tables, media, settings.method,
+        scene, geometry, tables, media, textures, settings.method,
         settings.splits > 1 ? settings.split_depth : 0, settings.sobol);
     result.times.normalise = watch.lap();
-    const Bvh bvh = build_bvh(geometry.positions);
+    Bvh bvh = build_bvh(geometry.positions);
+    if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
     result.times.bvh_build = watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
     // for memory together.
     if (device.info.is_cpu && bvh.nodes.size() >= stream_nodes)
         features.rays_per_item = stream_rays;
-    const SceneBuffers buffers(device, scene, geometry, bvh, tables, media);
+    const SceneBuffers buffers(device, scene, geometry, bvh, tables, media, textures);
     result.times.upload = watch.lap();
 
     RenderParams params = scene_params(scene, geometry, tables, settings);
@@ -257,6 +267,8 @@ RenderResult render(
     result.bvh_nodes = bvh.nodes.size();
     result.bvh_blocks = bvh.blocks.size();
     result.scene_bytes = buffers.bytes();
+    result.texture_bytes = buffers.texture_bytes();
+    result.texture_pages = textures.pages();
     result.pool_bytes = queues.bytes();
     result.film_bytes = film.bytes();
     return result;

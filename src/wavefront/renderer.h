@@ -58,12 +58,14 @@ struct RenderResult {
     uint64_t iterations = 0;
     std::size_t triangles = 0, dropped_triangles = 0, lights = 0, bvh_nodes = 0, bvh_blocks = 0;
     std::size_t scene_bytes = 0, pool_bytes = 0, film_bytes = 0;  // on the device
+    std::size_t texture_bytes = 0;                                // of scene_bytes
+    uint32_t texture_pages = 0;
     std::vector<std::string> warnings;
     bool interrupted = false;
 };
 
-// `progress` is called after every pass over the picture. `stop` is asked all the time: once it says
-// true the render ends with its pass, or without it where a path does not end
+// `progress` is called after every pass over the picture. `stop` is asked all the time: once it
+// says true the render ends with its pass, or without it where a path does not end
 // (QueueManager::render), and the result is `interrupted`.
 // Throws Error where the scene has no light, or none that the method can find; where the device
 // lacks memory, before rendering; for a path that never ends.

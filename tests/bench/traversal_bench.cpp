@@ -37,14 +37,15 @@ INLINE void stream_rays(
     const uint count, global const float* rays, global const BvhNode* nodes,
     global const TriangleBlock* blocks, global Hit* hits, uint i, const int any) {
     const uint end = min(count, i + RAYS_PER_ITEM);
+    const Cover cover = full_cover();
     RayStream stream;
     stream_open(&stream);
     do {
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
+            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
         }
-        stream_step(&stream, nodes, blocks, any);
+        stream_step(&stream, nodes, blocks, &cover, any);
         for (int k = 0; k < stream.ended; ++k) {
             const StreamRay* ray = stream_ended(&stream, k);
             if (any)
@@ -62,7 +63,9 @@ kernel void closest(
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
-        hits[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
+        const Cover cover = full_cover();
+        hits[i] = closest_hit(
+            nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), &cover);
         return;
     }
     stream_rays(count, rays, nodes, blocks, hits, i, 0);
@@ -75,7 +78,8 @@ kernel void blocked(
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
-        hits[i].primitive = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]) - 1;
+        const Cover cover = full_cover();
+        hits[i].primitive = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], &cover) - 1;
         return;
     }
     stream_rays(count, rays, nodes, blocks, hits, i, 1);

@@ -52,7 +52,8 @@ kernel void light_samples(
     out[4 * i + 3] = worst;
 }
 )",
-        "#define HAS_VERTEX_NORMALS 0\n#define HAS_VERTEX_COLORS 0\n");
+        "#define HAS_VERTEX_NORMALS 0\n#define HAS_VERTEX_COLORS 0\n#define UV_SETS 0\n"
+        "#define HAS_NORMAL_MAPS 0\n#define HAS_VERTEX_ALPHAS 0\n");
     return instance;
 }
 

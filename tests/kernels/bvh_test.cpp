@@ -25,7 +25,9 @@ kernel void closest(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
-    out[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
+    const Cover cover = full_cover();
+    out[i] = closest_hit(
+        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), &cover);
 }
 
 kernel void blocked(
@@ -34,7 +36,8 @@ kernel void blocked(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
-    out[i] = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6]);
+    const Cover cover = full_cover();
+    out[i] = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], &cover);
 }
 )");
     return instance;

@@ -30,6 +30,7 @@ INLINE Surface surface_of(global const float* p) {
     s.metallic = p[6];
     s.specular = p[7];
     s.alpha = p[8];
+    s.transmission = 0.0f;
     return s;
 }
 
@@ -53,7 +54,7 @@ kernel void densities(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     out[i] = gltf_pdf_w(
-        surface_of(material), viewer(mu), vec3(wi[3 * i], wi[3 * i + 1], wi[3 * i + 2]));
+        surface_of(material), viewer(mu), vec3(wi[3 * i], wi[3 * i + 1], wi[3 * i + 2]), 0);
 }
 
 // means of the weight's three channels over n samples an item
@@ -76,16 +77,16 @@ kernel void breaches(
     const Surface s = surface_of(material);
     const Vec3 wo = viewer(mu);
     const BsdfSample b = sample_of(s, wo, i);
-    const Vec3 value = gltf_eval(s, wo, b.wi);
+    const Vec3 value = gltf_eval(s, wo, b.wi, 0);
     const Vec3 product = scale3(b.weight, b.pdf_w);
-    if (b.pdf_w != gltf_pdf_w(s, wo, b.wi)) atomic_inc(out);
+    if (b.pdf_w != gltf_pdf_w(s, wo, b.wi, 0)) atomic_inc(out);
     if (!(max_component3(value) < INFINITY && b.pdf_w < INFINITY)) atomic_inc(out + 1);
     if (!(min(min(b.weight.x, b.weight.y), b.weight.z) >= 0.0f && b.pdf_w >= 0.0f)) atomic_inc(out + 1);
     if (!(fabs(product.x - value.x) <= 1e-6f * value.x + 1e-30f)) atomic_inc(out + 2);
     if (!(fabs(product.z - value.z) <= 1e-6f * value.z + 1e-30f)) atomic_inc(out + 2);
     if (b.wi.z > 0.0f && mu >= 0.05f) {  // at grazing angles 1 - F cancels
         const float there = value.y * wo.z;
-        const float back = gltf_eval(s, b.wi, wo).y * b.wi.z;
+        const float back = gltf_eval(s, b.wi, wo, 0).y * b.wi.z;
         if (!(fabs(there - back) <= 1e-4f * there + 1e-30f)) atomic_inc(out + 3);
     }
     if (!(fabs(dot3(b.wi, b.wi) - 1.0f) < 2e-6f)) atomic_inc(out + 4);

@@ -3,6 +3,7 @@
 #include "shared/params.h"
 #include "shared/queues.h"
 #include "shared/scene.h"
+#include "shared/texture.h"
 #include "support/probe.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,8 @@ namespace {
     FIELD(DeviceMaterial, emission_g) FIELD(DeviceMaterial, specular)                             \
     FIELD(DeviceMaterial, base_b) FIELD(DeviceMaterial, f0_b) FIELD(DeviceMaterial, emission_b)   \
     FIELD(DeviceMaterial, alpha) FIELD(DeviceMaterial, double_sided)                              \
-    FIELD(DeviceMaterial, boundary) FIELD(DeviceMaterial, medium) FIELD(DeviceMaterial, padding)  \
+    FIELD(DeviceMaterial, boundary) FIELD(DeviceMaterial, medium)                                 \
+    FIELD(DeviceMaterial, transmission)                                                           \
     STRUCT(DeviceMedium)                                                                          \
     FIELD(DeviceMedium, sigma_t_r) FIELD(DeviceMedium, sigma_s_r)                                 \
     FIELD(DeviceMedium, emission_r) FIELD(DeviceMedium, anisotropy)                               \
@@ -67,6 +69,11 @@ namespace {
     STRUCT(PlanRow)                                                                               \
     FIELD(PlanRow, first_sample) FIELD(PlanRow, samples) FIELD(PlanRow, batch_start)              \
     FIELD(PlanRow, closes_batch)                                                                  \
+    STRUCT(DeviceTexture)                                                                         \
+    FIELD(DeviceTexture, first_word) FIELD(DeviceTexture, width) FIELD(DeviceTexture, height)     \
+    FIELD(DeviceTexture, flags) FIELD(DeviceTexture, s_u) FIELD(DeviceTexture, s_v)               \
+    FIELD(DeviceTexture, s_1) FIELD(DeviceTexture, t_u) FIELD(DeviceTexture, t_v)                 \
+    FIELD(DeviceTexture, t_1) FIELD(DeviceTexture, scale) FIELD(DeviceTexture, cutoff)            \
     STRUCT(ChunkState)                                                                            \
     FIELD(ChunkState, active) FIELD(ChunkState, resumed) FIELD(ChunkState, runaway_pixel)          \
     FIELD(ChunkState, runaway_sample)
@@ -93,7 +100,9 @@ const std::string device_layout =
 
 TEST(Layout, HostAndDeviceAgree) {
     const Probe probe(
-        {"shared/bvh.h", "shared/params.h", "shared/queues.h", "shared/scene.h"}, device_layout);
+        {"shared/bvh.h", "shared/params.h", "shared/queues.h", "shared/scene.h",
+         "shared/texture.h"},
+        device_layout);
     const auto places = probe.run<cl_uint>("layout", 1, host_layout.size());
     for (std::size_t k = 0; k < places.size(); ++k)
         EXPECT_EQ(places[k], host_layout[k].place) << host_layout[k].name;

@@ -25,15 +25,16 @@ void trace(
     uint i = (uint)get_global_id(0) * RAYS_PER_ITEM;
     if (i >= count) return;
     const uint end = min(count, i + RAYS_PER_ITEM);
+    const Cover cover = full_cover();
     RayStream stream;
     stream_open(&stream);
     do {
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
             if (r[6] < 0.0f) continue;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
+            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
         }
-        stream_step(&stream, nodes, blocks, any);
+        stream_step(&stream, nodes, blocks, &cover, any);
         for (int k = 0; k < stream.ended; ++k) out[stream_ended(&stream, k)->item] = stream_ended(&stream, k)->hit;
     } while (i < end || stream_busy(&stream));
 }
@@ -57,7 +58,9 @@ kernel void alone(
     if (i >= count) return;
     global const float* r = rays + 8 * i;
     if (r[6] < 0.0f) return;
-    out[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
+    const Cover cover = full_cover();
+    out[i] = closest_hit(
+        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), &cover);
 }
 )",
         "#define RAYS_PER_ITEM 50\n");

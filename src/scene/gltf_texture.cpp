@@ -1,0 +1,184 @@
+#include "scene/gltf_texture.h"
+
+#include "scene/image_decoder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+
+namespace wavepath {
+namespace {
+
+constexpr bool is_srgb(TextureUse use) {
+    return use == TEXTURE_BASE_COLOR || use == TEXTURE_EMISSION || use == TEXTURE_SPECULAR_COLOR;
+}
+
+int integer(
+    const GltfFile& file, std::string_view where, const tinygltf::Value& object, const char* key) {
+    if (!object.Has(key)) return 0;
+    const tinygltf::Value& value = object.Get(key);
+    if (!value.IsInt()) file.fail(where, "{} is not an integer; repair it or export again", key);
+    return value.GetNumberAsInt();
+}
+
+Wrap wrap_of(const GltfFile& file, std::string_view where, int mode) {
+    switch (mode) {
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
+            return Wrap::repeat;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirror;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp;
+        default:
+            file.fail(where, "wrap mode {} is unknown; use 10497, 33648 or 33071", mode);
+    }
+}
+
+// Of KHR_texture_transform.
+std::array<double, 2> pair_of(
+    const GltfFile& file,
+    std::string_view where,
+    const tinygltf::Value& object,
+    const char* key,
+    double missing) {
+    const std::vector<double> values = numbers(file, where, object, key, {missing, missing});
+    if (values.size() != 2 || !std::isfinite(values[0]) || !std::isfinite(values[1]))
+        file.fail(where, "{} is not a pair of numbers; repair it or export again", key);
+    return {values[0], values[1]};
+}
+
+// The image's file, still encoded.
+std::span<const unsigned char> encoded_bytes(
+    const GltfFile& file, const tinygltf::Image& image, std::string_view where) {
+    if (image.bufferView < 0) {
+        if (image.image.empty())
+            file.fail(
+                where, "{} is missing, empty or cannot be read; put it beside the scene",
+                image.uri.empty() ? "its data" : one_line(image.uri));
+        return image.image;
+    }
+    const auto& view = file.at(file.model.bufferViews, image.bufferView, "bufferView", where);
+    const auto& data = file.at(file.model.buffers, view.buffer, "buffer", where).data;
+    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
+        file.fail(
+            where, "bufferView {} ends after its buffer of {} bytes; export again",
+            image.bufferView, data.size());
+    return std::span(data).subspan(view.byteOffset, view.byteLength);
+}
+
+}  // namespace
+
+void TextureReader::read(TextureUse use, const tinygltf::Value& extension, const char* key) {
+    if (!extension.Has(key)) return;
+    const tinygltf::Value& info = extension.Get(key);
+    if (!info.IsObject() || !info.Has("index"))
+        file_.fail(where_, "{} has no index; repair it or export again", key);
+    tinygltf::ExtensionMap extensions;
+    if (info.Has("extensions")) {
+        const tinygltf::Value& members = info.Get("extensions");
+        for (const std::string& name : members.Keys()) extensions[name] = members.Get(name);
+    }
+    add(use, integer(file_, where_, info, "index"), integer(file_, where_, info, "texCoord"),
+        extensions);
+}
+
+void TextureReader::add(
+    TextureUse use, int index, int uv_set, const tinygltf::ExtensionMap& extensions) {
+    const tinygltf::Texture& source = file_.at(file_.model.textures, index, "texture", where_);
+    const std::string where = label("texture", index, source.name);
+    int image = source.source;
+    if (const auto* webp = find_extension(source.extensions, "EXT_texture_webp"))
+        image = integer(file_, where, *webp, "source");
+    if (image == -1)
+        file_.fail(
+            where, "has no image of a kind that is supported; convert it to PNG, JPEG or WebP");
+    file_.at(file_.model.images, image, "image", where);
+
+    Texture& texture = material_.textures[use];
+    texture.image = static_cast<uint32_t>(image);
+    texture.srgb = is_srgb(use);
+    read_sampler(source.sampler, texture);
+    if (const auto* transform = find_extension(extensions, "KHR_texture_transform"))
+        uv_set = read_transform(*transform, uv_set, texture);
+    texture.uvs = place_of_uv_set(uv_set);
+}
+
+// translation * rotation * scale; the rotation is counter-clockwise in a plane whose v points down
+// [KHR_texture_transform]. Returns the set of coordinates.
+int TextureReader::read_transform(
+    const tinygltf::Value& transform, int uv_set, Texture& texture) const {
+    const auto offset = pair_of(file_, where_, transform, "offset", 0);
+    const auto scale = pair_of(file_, where_, transform, "scale", 1);
+    const double rotation = number(file_, where_, transform, "rotation", 0);
+    if (!std::isfinite(rotation)) file_.fail(where_, "rotation is not finite; repair it");
+    const double c = std::cos(rotation);
+    const double s = std::sin(rotation);
+    const std::array<double, 6> matrix{c * scale[0],  s * scale[1], offset[0],
+                                       -s * scale[0], c * scale[1], offset[1]};
+    std::ranges::transform(
+        matrix, texture.transform.begin(), [](double x) { return static_cast<float>(x); });
+    return transform.Has("texCoord") ? integer(file_, where_, transform, "texCoord") : uv_set;
+}
+
+void TextureReader::read_sampler(int index, Texture& texture) const {
+    if (index == -1) return;
+    const tinygltf::Sampler& sampler = file_.at(file_.model.samplers, index, "sampler", where_);
+    const std::string where = label("sampler", index, sampler.name);
+    texture.wrap_s = wrap_of(file_, where, sampler.wrapS);
+    texture.wrap_t = wrap_of(file_, where, sampler.wrapT);
+    texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+}
+
+uint32_t TextureReader::place_of_uv_set(int set) {
+    if (set < 0) file_.fail(where_, "texCoord {} is negative; repair it", set);
+    auto& sets = material_.uv_sets;
+    const auto known = std::ranges::find(sets, static_cast<uint32_t>(set));
+    if (known != sets.end()) return static_cast<uint32_t>(known - sets.begin());
+    if (sets.size() == 2)
+        file_.fail(
+            where_,
+            "its textures use more than two sets of texture coordinates; bake them into "
+            "two");
+    sets.push_back(static_cast<uint32_t>(set));
+    return static_cast<uint32_t>(sets.size() - 1);
+}
+
+void load_images(const GltfFile& file, Scene& scene, uint64_t most_texels) {
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const Primitive& primitive : scene.primitives) used[primitive.material] = true;
+    std::map<uint32_t, uint32_t> loaded;  // by the file's index
+    uint64_t texels = 0;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        for (Texture& texture : scene.materials[m].textures) {
+            if (!texture.image) continue;
+            if (!used[m]) {
+                texture.image.reset();
+                continue;
+            }
+            const uint32_t index = *texture.image;
+            const auto [entry, is_new] =
+                loaded.try_emplace(index, static_cast<uint32_t>(scene.images.size()));
+            texture.image = entry->second;
+            if (!is_new) continue;
+            const tinygltf::Image& source = file.model.images[index];
+            const std::string where = label(
+                "image", static_cast<int>(index), source.uri.empty() ? source.name : source.uri);
+            const auto bytes = encoded_bytes(file, source, where);
+            try {
+                const ImageSize size = read_image_size(bytes);
+                texels += uint64_t{size.width} * size.height;
+                if (texels > most_texels)
+                    throw Error(
+                        "with it the scene's images have {} Mi texels, more than the {} Mi "
+                        "allowed; shrink them or raise --max-texels",
+                        texels >> 20U, most_texels >> 20U);
+                scene.images.push_back(decode_image(bytes));
+            } catch (const Error& error) {
+                file.fail(where, "{}", error.what());
+            }
+        }
+    }
+}
+
+}  // namespace wavepath

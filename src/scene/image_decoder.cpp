@@ -1,0 +1,122 @@
+#include "scene/image_decoder.h"
+
+#include "error.h"
+
+#include <webp/decode.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC  // libtinygltf brings another copy
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_NO_STDIO
+#include <stb_image.h>
+
+namespace wavepath {
+namespace {
+
+using Bytes = std::span<const unsigned char>;
+
+constexpr const char* unknown_kind =
+    "is no PNG, JPEG or WebP image; convert it, or check that it is complete";
+
+bool is_webp(Bytes bytes) {
+    return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 &&
+           std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+}
+
+// stb_image takes the end of a file for zeros, and paints what is cut off grey: this source
+// remembers that it was asked for more than there is.
+struct Source {
+    Bytes left;
+    bool exhausted = false;
+
+    static int read(void* user, char* data, int size) {
+        auto& [left, exhausted] = *static_cast<Source*>(user);
+        const std::size_t count = std::min(left.size(), static_cast<std::size_t>(size));
+        std::copy_n(left.data(), count, data);
+        left = left.subspan(count);
+        exhausted = exhausted || count == 0;
+        return static_cast<int>(count);
+    }
+    static void skip(void* user, int size) {
+        auto& [left, exhausted] = *static_cast<Source*>(user);
+        const auto wanted = static_cast<std::size_t>(size);
+        exhausted = exhausted || wanted > left.size();
+        left = left.subspan(std::min(wanted, left.size()));
+    }
+    static int at_end(void* user) { return static_cast<Source*>(user)->left.empty(); }
+};
+
+constexpr stbi_io_callbacks callbacks{Source::read, Source::skip, Source::at_end};
+
+struct Free {
+    void operator()(void* pixels) const { stbi_image_free(pixels); }
+    void operator()(std::uint8_t* pixels) const { WebPFree(pixels); }
+};
+
+TextureImage with_size(int width, int height) {
+    TextureImage image;
+    image.width = static_cast<uint32_t>(width);
+    image.height = static_cast<uint32_t>(height);
+    return image;
+}
+
+void copy_texels(TextureImage& image, const void* texels) {
+    image.words.resize(std::size_t{image.wide ? 2U : 1U} * image.width * image.height);
+    std::memcpy(image.words.data(), texels, image.words.size() * sizeof(uint32_t));
+}
+
+TextureImage decode_webp(Bytes bytes) {
+    int width = 0;
+    int height = 0;
+    const std::unique_ptr<std::uint8_t, Free> texels(
+        WebPDecodeRGBA(bytes.data(), bytes.size(), &width, &height));
+    if (!texels) throw Error("is a damaged WebP image; export it again");
+    TextureImage image = with_size(width, height);
+    copy_texels(image, texels.get());
+    return image;
+}
+
+}  // namespace
+
+ImageSize read_image_size(Bytes bytes) {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    if (bytes.size() > std::numeric_limits<int>::max())
+        throw Error("is larger than 2 GiB; shrink it");
+    const bool known =
+        is_webp(bytes)
+            ? WebPGetInfo(bytes.data(), bytes.size(), &width, &height) != 0
+            : stbi_info_from_memory(
+                  bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) != 0;
+    if (!known || width < 1 || height < 1) throw Error("{}", unknown_kind);
+    return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+
+TextureImage decode_image(Bytes bytes) {
+    if (is_webp(bytes)) return decode_webp(bytes);
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    const bool wide = stbi_is_16_bit_from_memory(bytes.data(), static_cast<int>(bytes.size())) != 0;
+    Source source{bytes};
+    const std::unique_ptr<void, Free> texels(
+        wide ? static_cast<void*>(
+                   stbi_load_16_from_callbacks(&callbacks, &source, &width, &height, &channels, 4))
+             : static_cast<void*>(
+                   stbi_load_from_callbacks(&callbacks, &source, &width, &height, &channels, 4)));
+    if (source.exhausted) throw Error("is cut off; copy or export it again");
+    if (!texels) throw Error("is damaged ({}); export it again", stbi_failure_reason());
+    TextureImage image = with_size(width, height);
+    image.wide = wide;
+    copy_texels(image, texels.get());
+    return image;
+}
+
+}  // namespace wavepath
