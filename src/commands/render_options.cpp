@@ -131,6 +131,10 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
            "--size", o.size, "Picture size in pixels; default 512 high, as wide as the camera says")
         ->type_name("WxH");
     app.add_option(
+           "--scene", o.scene_of_file,
+           "A scene of the file, by name or index; default the file's default")
+        ->type_name("NAME|INDEX");
+    app.add_option(
            "--camera", o.camera, "A camera of the scene, by name or index; default its first")
         ->type_name("NAME|INDEX");
     app.add_option("--look-at", o.look_at, "A camera of your own: eye and target [m]")
@@ -205,7 +209,7 @@ RenderJob prepare_job(const RenderOptions& options) {
     parse_budget(options, settings);
 
     const auto start = std::chrono::steady_clock::now();
-    job.scene = load_gltf(options.scene);
+    job.scene = load_gltf(options.scene, options.scene_of_file);
     job.scene.environment = parse_environment(options);
     settings.camera = parse_camera(options, job.scene);
     parse_size(options.size, settings.camera, settings);

@@ -16,7 +16,8 @@ namespace wavepath {
 
 struct RenderOptions {
     std::filesystem::path scene;
-    std::string size;  // "WxH"; empty: 512 high, the camera's aspect ratio
+    std::string size;           // "WxH"; empty: 512 high, the camera's aspect ratio
+    std::string scene_of_file;  // name or index; empty: the file's default
     std::string camera;
     std::string look_at;
     std::optional<double> fov;  // [degrees] vertical

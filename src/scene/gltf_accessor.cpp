@@ -52,6 +52,24 @@ bool is_vertex_component(int type) {
            type == TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
+// 0 for the types that pad their columns: no attribute has them.
+std::size_t component_count(int type) {
+    switch (type) {
+        case TINYGLTF_TYPE_SCALAR:
+            return 1;
+        case TINYGLTF_TYPE_VEC2:
+            return 2;
+        case TINYGLTF_TYPE_VEC3:
+            return 3;
+        case TINYGLTF_TYPE_VEC4:
+            return 4;
+        case TINYGLTF_TYPE_MAT4:
+            return 16;
+        default:
+            return 0;
+    }
+}
+
 std::uint32_t load_index(const unsigned char* bytes, int component_type) {
     switch (component_type) {
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
@@ -95,18 +113,11 @@ Rows find_rows(
     std::size_t row_size,
     std::string_view where) {
     const auto& view = file.at(file.model.bufferViews, view_index, "bufferView", where);
-    const std::string view_label = label("bufferView", view_index, view.name);
-    const auto& data = file.at(file.model.buffers, view.buffer, "buffer", view_label).data;
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-        file.fail(
-            view_label,
-            "ends after its buffer of {} bytes; the file is cut short or wrong, export again",
-            data.size());
-
+    const std::span<const unsigned char> bytes = view_bytes(file, view_index, where);
     const std::size_t stride = view.byteStride == 0 ? row_size : view.byteStride;
     if (stride < row_size)
         file.fail(
-            view_label,
+            label("bufferView", view_index, view.name),
             "byteStride {} is less than the {} bytes of a row; repair it or export again", stride,
             row_size);
     if (byte_offset > view.byteLength || row_size > view.byteLength - byte_offset ||
@@ -116,7 +127,7 @@ Rows find_rows(
             "{} rows from byte {} end after bufferView {} of {} bytes; repair the count or export "
             "again",
             count, byte_offset, view_index, view.byteLength);
-    return {data.data() + view.byteOffset + byte_offset, stride};
+    return {bytes.data() + byte_offset, stride};
 }
 
 std::size_t checked_sparse_offset(const GltfFile& file, int byte_offset, std::string_view where) {
@@ -198,10 +209,35 @@ std::vector<T> read_rows(
 
 }  // namespace
 
-std::vector<float> read_vec3(const GltfFile& file, int accessor_index, std::string_view where) {
+std::span<const unsigned char> buffer_bytes(
+    const GltfFile& file,
+    int buffer,
+    std::size_t offset,
+    std::size_t length,
+    std::string_view where) {
+    const auto& data = file.at(file.model.buffers, buffer, "buffer", where).data;
+    if (offset > data.size() || length > data.size() - offset)
+        file.fail(
+            where,
+            "ends after its buffer of {} bytes; the file is cut short or wrong, export again",
+            data.size());
+    return {data.data() + offset, length};
+}
+
+std::span<const unsigned char> view_bytes(const GltfFile& file, int index, std::string_view where) {
+    const auto& view = file.at(file.model.bufferViews, index, "bufferView", where);
+    return buffer_bytes(
+        file, view.buffer, view.byteOffset, view.byteLength, label("bufferView", index, view.name));
+}
+
+std::vector<float> read_vectors(
+    const GltfFile& file, int accessor_index, std::size_t width, std::string_view where) {
     const auto& accessor = file.at(file.model.accessors, accessor_index, "accessor", where);
-    if (accessor.type != TINYGLTF_TYPE_VEC3 && accessor.type != TINYGLTF_TYPE_VEC4)
-        file.fail(where, "accessor {} is no vector of 3; export again", accessor_index);
+    const std::size_t components = component_count(accessor.type);
+    if (components < width || (width <= 4 && components > 4))
+        file.fail(
+            where, "accessor {} does not hold {} numbers a row; export again", accessor_index,
+            width);
     if (!is_vertex_component(accessor.componentType))
         file.fail(
             where,
@@ -209,10 +245,10 @@ std::vector<float> read_vec3(const GltfFile& file, int accessor_index, std::stri
             accessor_index, accessor.componentType);
 
     const std::size_t size = component_size(accessor.componentType);
-    const std::size_t row_size = size * (accessor.type == TINYGLTF_TYPE_VEC3 ? 3 : 4);
     std::vector<float> values = read_rows<float>(
-        file, accessor, row_size, 3, where, [&](const unsigned char* bytes, float* row) {
-            for (std::size_t i = 0; i < 3; ++i)
+        file, accessor, size * components, width, where,
+        [&](const unsigned char* bytes, float* row) {
+            for (std::size_t i = 0; i < width; ++i)
                 row[i] = load_float(bytes + i * size, accessor.componentType, accessor.normalized);
         });
 
@@ -221,7 +257,7 @@ std::vector<float> read_vec3(const GltfFile& file, int accessor_index, std::stri
     if (broken != values.end())
         file.fail(
             where, "row {} is not finite; repair the mesh and export again",
-            (broken - values.begin()) / 3);
+            static_cast<std::size_t>(broken - values.begin()) / width);
     return values;
 }
 

@@ -5,14 +5,28 @@
 #include "scene/gltf_file.h"
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
 namespace wavepath {
 
-// Three numbers a row of a VEC3 (of a VEC4: its first three), finite; normalized integers as
-// fractions. `where` names what the accessor is for: mesh 3 "lamp", POSITION.
-std::vector<float> read_vec3(const GltfFile& file, int accessor, std::string_view where);
+// `length` bytes of a buffer from `offset` on; `where` names who asks for them.
+std::span<const unsigned char> buffer_bytes(
+    const GltfFile& file,
+    int buffer,
+    std::size_t offset,
+    std::size_t length,
+    std::string_view where);
+
+// The bytes of a buffer view.
+std::span<const unsigned char> view_bytes(const GltfFile& file, int view, std::string_view where);
+
+// `width` numbers a row, finite; normalized integers as fractions. A vector may have more
+// components than `width` (1 .. 4), of which the first are read; 16 reads a MAT4, column by column.
+// `where` names what the accessor is for: mesh 3 "lamp", POSITION.
+std::vector<float> read_vectors(
+    const GltfFile& file, int accessor, std::size_t width, std::string_view where);
 
 // Indices, each below `vertex_count` and none the primitive restart value, which glTF forbids.
 std::vector<std::uint32_t> read_indices(

@@ -15,10 +15,6 @@ namespace {
 // Twice the least area that counts: the square of a smaller normal leaves single precision.
 constexpr double smallest_cross = 1e-18;
 
-double dot(const Vec3d& a, const Vec3d& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 struct Bounds {
     Vec3d low{
         std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
@@ -35,36 +31,12 @@ struct Bounds {
     }
 };
 
-Vec3d transform_point(const Matrix4& m, const Vec3d& p) {
-    Vec3d r;
-    for (std::size_t k = 0; k < 3; ++k)
-        r[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
-    return r;
-}
-
-// By the cofactors: the inverse transpose up to a factor, which also serves flattened nodes. The
-// factor's sign is the determinant's.
-Vec3d transform_normal(const Matrix4& m, const Vec3d& n) {
-    const Vec3d columns[3] = {
-        cross(axis(m, 1), axis(m, 2)), cross(axis(m, 2), axis(m, 0)),
-        cross(axis(m, 0), axis(m, 1))};
-    const double sign = dot(axis(m, 0), columns[0]) < 0 ? -1 : 1;
-    Vec3d r{0, 0, 0};
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t k = 0; k < 3; ++k) r[k] += sign * n[c] * columns[c][k];
-    return normalized(r);
-}
-
-Vec3d vertex(const std::vector<float>& values, uint32_t index) {
-    return {values[3U * index], values[3U * index + 1], values[3U * index + 2]};
-}
-
 Bounds world_bounds(const Scene& scene) {
     Bounds bounds;
     for (const Instance& instance : scene.instances) {
         const Primitive& primitive = scene.primitives[instance.primitive];
         for (const uint32_t index : primitive.indices)
-            bounds.extend(transform_point(instance.to_world, vertex(primitive.positions, index)));
+            bounds.extend(transform_point(instance.to_world, vec3_at(primitive.positions, index)));
     }
     return bounds;
 }
@@ -96,7 +68,7 @@ void append_instance(
         std::array<Vec3d, 3> p;
         for (std::size_t c = 0; c < 3; ++c) {
             p[c] = out.to_normalised(
-                transform_point(to_world, vertex(primitive.positions, corners[c])));
+                transform_point(to_world, vec3_at(primitive.positions, corners[c])));
             for (double& x : p[c]) x = static_cast<float>(x);
         }
         const Vec3d face = face_cross(p);
@@ -111,13 +83,13 @@ void append_instance(
                 append(
                     out.normals, primitive.normals.empty()
                                      ? normalized(face)
-                                     : transform_normal(to_world, vertex(primitive.normals, c)));
+                                     : transform_normal(to_world, vec3_at(primitive.normals, c)));
         }
         if (colors)
             for (const uint32_t c : corners)
                 append(
                     out.colors,
-                    primitive.colors.empty() ? Vec3d{1, 1, 1} : vertex(primitive.colors, c));
+                    primitive.colors.empty() ? Vec3d{1, 1, 1} : vec3_at(primitive.colors, c));
     }
 }
 

@@ -105,8 +105,8 @@ struct Scene {
     std::vector<Material> materials;  // at least one
     std::vector<Primitive> primitives;
     std::vector<Instance> instances;    // of primitives, in depth-first order of the node tree
-    std::vector<Camera> cameras;        // of the default scene, in depth-first order
-    std::vector<PunctualLight> lights;  // of the default scene, in depth-first order
+    std::vector<Camera> cameras;        // of the scene, in depth-first order
+    std::vector<PunctualLight> lights;  // of the scene, in depth-first order
     std::optional<Environment> environment;
     std::vector<std::string>
         ignored;  // what the file asks for and this program does not do, one line each, said once

@@ -46,6 +46,28 @@ bool flattens_triangles(const Matrix4& matrix) {
     return cross(x, y) == zero && cross(y, z) == zero && cross(z, x) == zero;
 }
 
+Vec3d transform_point(const Matrix4& m, const Vec3d& p) {
+    Vec3d r;
+    for (std::size_t k = 0; k < 3; ++k)
+        r[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
+    return r;
+}
+
+Vec3d transform_normal(const Matrix4& m, const Vec3d& n) {
+    const std::array<Vec3d, 3> columns{
+        cross(axis(m, 1), axis(m, 2)), cross(axis(m, 2), axis(m, 0)),
+        cross(axis(m, 0), axis(m, 1))};
+    const double sign = dot(axis(m, 0), columns[0]) < 0 ? -1 : 1;  // the determinant's
+    Vec3d r{0, 0, 0};
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < 3; ++k) r[k] += sign * n[c] * columns[c][k];
+    return normalized(r);
+}
+
+double dot(const Vec3d& a, const Vec3d& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 Vec3d cross(const Vec3d& a, const Vec3d& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

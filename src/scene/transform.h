@@ -22,6 +22,19 @@ inline Vec3d axis(const Matrix4& matrix, std::size_t column) {
     return {matrix[4 * column], matrix[4 * column + 1], matrix[4 * column + 2]};
 }
 
+// Row `row` of values that come in threes.
+inline Vec3d vec3_at(const std::vector<float>& values, std::size_t row) {
+    return {values[3 * row], values[3 * row + 1], values[3 * row + 2]};
+}
+
+Vec3d transform_point(const Matrix4& matrix, const Vec3d& point);
+
+// By the cofactors: the inverse transpose up to a positive factor, which also serves flattening
+// matrices. Unit, or zero where it has no direction.
+Vec3d transform_normal(const Matrix4& matrix, const Vec3d& normal);
+
+double dot(const Vec3d& a, const Vec3d& b);
+
 Vec3d cross(const Vec3d& a, const Vec3d& b);
 
 // The zero vector where `v` has no direction.
