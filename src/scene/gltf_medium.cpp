@@ -26,11 +26,6 @@ double single_albedo(double rho, double g) {
     return rho > 0 ? std::clamp((1 - s * s) / (1 - g * s * s), 0.0, 1.0) : 0.0;
 }
 
-// Mirrors begin at the same alpha (kernels/materials/ggx.cl, MIRROR_ALPHA).
-bool is_smooth(const Material& material) {
-    return material.roughness * material.roughness < 1e-3F;
-}
-
 class MediumReader {
   public:
     MediumReader(const GltfFile& file, int index)
@@ -172,8 +167,6 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
         ignored.add("thin transmitting materials", "rendered opaque");
     else if (transmission < 1 || material.metallic > 0)
         ignored.add("volumes that transmit in part", "rendered opaque");
-    else if (material.ior != 1 && !is_smooth(material))
-        ignored.add("volumes that refract and are rough", "rendered opaque");
     else if (material.ior < 1)
         ignored.add("volumes that refract with ior 0", "rendered opaque");
     else if (material.ior == 1 && material.emits())

@@ -122,8 +122,20 @@ class QueueManager {
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats, Floats> generate_rays_;
     Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Floats> intersect_;
-    std::optional<
-        Stage<Params, cl_uint, Media, Floats, Uints, Floats, Floats, Floats, Floats, Floats>>
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Lights,
+        Media,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Uints,
+        Floats>>
         sample_distance_;
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
     std::optional<Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats, Floats, Floats>>
@@ -162,25 +174,16 @@ class QueueManager {
         Floats>>
         direct_light_;
     std::optional<Stage<Params, cl_uint, Nodes, Blocks, Floats, Floats, Fates>> occlusion_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Nodes,
-        Blocks,
-        Floats,
-        Materials,
-        Media,
-        Floats,
-        Floats,
-        Floats,
-        Fates>>
+    std::optional<
+        Stage<Params, cl_uint, Nodes, Blocks, Floats, Materials, Media, Floats, Floats, Fates>>
         connect_through_media_;
     Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats, Floats>
         sample_indirect_;
-    std::optional<Stage<Params, cl_uint, Media, Floats, Floats, Floats, Floats, Floats, Uints>>
+    std::optional<
+        Stage<Params, cl_uint, Media, Floats, Floats, Floats, Floats, Floats, Uints, Floats>>
         scatter_medium_;
     Stage<Params, cl_uint, Uints, Floats, Floats, Fates> roulette_compact_;
-    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Fates>>
+    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Floats, Fates>>
         resume_branch_;
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;

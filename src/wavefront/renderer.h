@@ -23,7 +23,7 @@ struct RenderSettings {
     uint32_t seed = 1;
     Method method = method_named("mis");
     Termination termination;
-    uint32_t splits = 1;
+    Splits splits;
     uint32_t split_depth = 1;
     bool sobol = true;
     uint32_t pool = 0;  // path slots; 0: the device's default
@@ -62,8 +62,8 @@ struct RenderResult {
     bool interrupted = false;
 };
 
-// `progress` is called after every pass over the picture. `stop` is asked all the time: once it says
-// true the render ends with its pass, or without it where a path does not end
+// `progress` is called after every pass over the picture. `stop` is asked all the time: once it
+// says true the render ends with its pass, or without it where a path does not end
 // (QueueManager::render), and the result is `interrupted`.
 // Throws Error where the scene has no light, or none that the method can find; where the device
 // lacks memory, before rendering; for a path that never ends.
