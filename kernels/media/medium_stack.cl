@@ -33,6 +33,11 @@ INLINE uint cross_boundary(
     return enters ? enter_medium(stack, medium) : leave_medium(stack, medium);
 }
 
+INLINE float refractive_index(global const DeviceMedium* media, const uint stack) {
+    const uint innermost = innermost_medium(stack);
+    return innermost > 0 ? media[(int)max(innermost, 1u) - 1].ior : 1.0f;
+}
+
 INLINE int stack_is_full(const uint stack) {
     return stack >> 24 != 0u;
 }

@@ -40,6 +40,12 @@ INLINE float minus_log(const float x) {
     return -fma((float)n, LN2_HIGH, r + p);
 }
 
+// -log(1 - x) for x in [0, 1), all its digits for small x.
+INLINE float minus_log_1_minus(const float x) {
+    const float series = fma(fma(fma(fma(x, 0.2f, 0.25f), x, 1.0f / 3.0f), x, 0.5f), x * x, x);
+    return x < 0.02f ? series : minus_log(1.0f - x);
+}
+
 // (1 - exp(-x)) / x for x >= 0, 1 at 0: what of a medium's emission reaches the end of a segment.
 INLINE float mean_of_exp_minus(const float x) {
     const float series = fma(fma(fma(x, -1.0f / 24.0f, 1.0f / 6.0f), x, -0.5f), x, 1.0f);

@@ -2,7 +2,7 @@
 // `occlusion`, which knows no boundaries. One ray meets the index-matched boundaries one after the
 // other and ends at its light: nothing is pushed off a boundary, so no lamp below one is missed.
 //
-// reads: shadows, media, ids, scene, textures
+// reads: shadows, ids, scene, textures
 //
 // writes: radiances, fates
 //
@@ -26,7 +26,6 @@ kernel void connect_through_media(
     global const DeviceMedium* restrict media,
     TEXTURE_PARAMETERS,
     global const float* restrict shadows,
-    global const float* restrict path_media,
     global const uint* restrict ids,
     global float* restrict radiances,
     global uchar* restrict fates) {
@@ -39,7 +38,7 @@ kernel void connect_through_media(
     const Vec3 origin = load3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot);
     const Vec3 direction = load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot);
     const float length = sqrt(dot3(direction, direction));
-    uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
+    uint stack = as_uint(PLANE(shadows, SHADOW_MEDIA)[slot]);
     Vec3 value = load3(PLANE(shadows, SHADOW_R), stride, slot);
     Vec3 tau = vec3(0.0f, 0.0f, 0.0f);
     RayStart start = at_origin();

@@ -67,6 +67,7 @@ kernel void generate_rays(
     if (HAS_SPLITS) {
         PLANE(ids, ID_BRANCH)[slot] = 0;
         PLANE(ids, ID_STACK)[slot] = 0;
+        PLANE(ids, ID_SHARES)[slot] = as_uint(1.0f);
         PLANE(hits, HIT_T)[slot] = 0.0f;
     }
 

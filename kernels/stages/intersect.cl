@@ -43,7 +43,7 @@ kernel void intersect(
     if (slot >= slots) return;
     if (RAYS_PER_ITEM == 1) {
         if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return;
-        if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
+        if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) return;
         const Cover cover =
             ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
         const Hit hit = closest_hit(
@@ -61,7 +61,7 @@ kernel void intersect(
     do {
         for (; slot < end && stream_has_room(&stream); ++slot) {
             if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) continue;
-            if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) continue;
+            if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) continue;
             stream_add(
                 &stream, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
                 PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],

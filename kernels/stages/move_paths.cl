@@ -6,6 +6,7 @@
 //
 // One work-item a path; no slot is read and written in one launch.
 
+#include "sampling/branch.cl"
 #include "sampling/vector.cl"
 #include "shared/features.h"
 #include "shared/params.h"
@@ -37,7 +38,8 @@ kernel void move_paths(
     for (int k = 0; k < id_planes; ++k) PLANE(ids, k)[to] = PLANE(ids, k)[from];
     const int medium_planes = HAS_MEDIA ? MEDIUM_PLANES : 0;
     for (int k = 0; k < medium_planes; ++k) PLANE(path_media, k)[to] = PLANE(path_media, k)[from];
-    const int branch_planes = HAS_SPLITS ? BRANCH_PLANES * (int)params.split_depth : 0;
+    const int branch_planes =
+        HAS_SPLITS ? (int)(BRANCH_PLANES_USED * BRANCH_LEVELS * params.split_depth) : 0;
     for (int k = 0; k < branch_planes; ++k) PLANE(branches, k)[to] = PLANE(branches, k)[from];
     PLANE(hits, HIT_PRIMITIVE)[from] = as_float(HIT_IDLE);
 }

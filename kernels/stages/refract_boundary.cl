@@ -1,6 +1,6 @@
-// Continues every path at a smooth dielectric boundary: reflected with the chance that Fresnel's
-// equations give, else refracted into the medium that begins or ends there. A path that crosses
-// carries (n_i / n_t)^2 of the radiance behind [Veach 1997, section 5.2].
+// Continues every path at a dielectric boundary: reflected with the chance that Fresnel's equations
+// give, else refracted into the medium that begins or ends there. A path that crosses carries
+// (n_i / n_t)^2 of the radiance behind [Veach 1997, section 5.2].
 //
 // reads: rays, surfaces, ids, scene, media
 //
@@ -12,11 +12,6 @@
 #include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
-
-INLINE float refractive_index(global const DeviceMedium* media, const uint stack) {
-    const uint innermost = innermost_medium(stack);
-    return innermost > 0 ? media[(int)max(innermost, 1u) - 1].ior : 1.0f;
-}
 
 kernel void refract_boundary(
     constant const RenderParams* restrict settings,
@@ -41,34 +36,32 @@ kernel void refract_boundary(
     if (material->boundary != BOUNDARY_DIELECTRIC) return;
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
     const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
-    const Vec3 n = load_shading_normal(surfaces, stride, slot);
+    const Frame frame = frame_around(load_shading_normal(surfaces, stride, slot));
     const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
     const uint crossed =
         cross_boundary(stack, material->medium, triangles + TRIANGLE_FLOATS * primitive, direction);
     const int too_deep = stack_is_full(stack) & (crossed == enter_medium(stack, material->medium));
 
-    const float ior_i = refractive_index(media, stack);
-    const float ior_t = refractive_index(media, crossed);
-    const float cosine = min(-dot3(direction, n), 1.0f);
-    const Interface interface = fresnel_interface(cosine, ior_i, ior_t);
+    const uint seed = PLANE(ids, ID_SEED)[slot];
+    const uint index = PLANE(ids, ID_INDEX)[slot];
     const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
-    const float u = unit_float(
-        scattering_pair(
-            PLANE(ids, ID_SEED)[slot], PLANE(ids, ID_INDEX)[slot], 0, scattering, PAIR_CHOICE)
-            .v);
-    const int reflects = u < interface.reflectance;
-    const float eta = ior_i / ior_t;
-    const Vec3 reflected = madd3(direction, n, 2.0f * cosine);
-    const Vec3 refracted = madd3(scale3(direction, eta), n, fma(eta, cosine, -interface.cosine));
-    const Vec3 wi = normalize3(select3(reflects, reflected, refracted));
+    const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
+    const Sample2 u = unit_pair(scattering_pair(seed, index, branch, scattering, PAIR_DIRECTION));
+    const float choice =
+        unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
+    const DielectricSample s = dielectric_sample(
+        to_local(frame, scale3(direction, -1.0f)), material->alpha, refractive_index(media, stack),
+        refractive_index(media, crossed), u, choice);
+    const Vec3 wi = to_world(frame, s.wi);
 
     const Vec3 one = vec3(1.0f, 1.0f, 1.0f);
     const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
     // more media around one another than the stack holds: a NaN, to be found and counted
-    const Vec3 passed = scale3(base, too_deep ? NAN : eta * eta);
-    const Vec3 throughput =
-        mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), select3(reflects, one, passed));
-    const Vec3 side = scale3(ng, reflects ? 1.0f : -1.0f);
+    const Vec3 passed = scale3(base, too_deep ? NAN : 1.0f);
+    const Vec3 throughput = mul3(
+        load3(PLANE(throughputs, THROUGHPUT_R), stride, slot),
+        scale3(select3(s.reflects, one, passed), s.weight));
+    const Vec3 side = scale3(ng, s.reflects ? 1.0f : -1.0f);
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= dot3(side, wi) <= 0.0f ? 0.0f : 1.0f;
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN
@@ -79,8 +72,8 @@ kernel void refract_boundary(
         leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), side));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
-    PLANE(throughputs, THROUGHPUT_PDF)[slot] = PDF_CERTAIN;
-    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(reflects ? stack : crossed);
+    PLANE(throughputs, THROUGHPUT_PDF)[slot] = s.pdf_w;
+    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(s.reflects ? stack : crossed);
     PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
     start_at_origin(path_media, stride, slot);
 }

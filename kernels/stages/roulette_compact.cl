@@ -38,11 +38,8 @@ kernel void roulette_compact(
 
     // q: constant, or what the path still carries against ROULETTE_BELOW; never above 1
     float survival = 1.0f;
-    // a child carries the S-th part of its parent, which says nothing about its worth
-    float shares = 1.0f;
-    if (HAS_SPLITS)
-        for (uint k = 0; k < min(scattering, params.split_depth); ++k)
-            shares *= (float)params.splits;
+    // a child carries a part of its parent, which says nothing about its worth
+    const float shares = HAS_SPLITS ? as_float(PLANE(ids, ID_SHARES)[slot]) : 1.0f;
     survival = params.roulette == 1
                    ? min(1.0f, max_component3(throughput) * shares * (1.0f / ROULETTE_BELOW))
                    : survival;

@@ -171,16 +171,21 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option("--sampler", o.sampler, "Kind of points; default sobol")
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent");
-    app.add_option("--distance", o.distance, "Distances in media: exponential")
-        ->check(CLI::IsMember({"exponential"}))
-        ->type_name("exponential");
+    app.add_option("--distance", o.distance, "How stops in media are chosen; default exponential")
+        ->check(CLI::IsMember({"uniform", "exponential", "truncated", "equiangular", "mis"}))
+        ->type_name("NAME");
     app.add_option("--direction", o.direction, "Directions in media; default phase")
         ->check(CLI::IsMember({"phase", "uniform"}))
         ->type_name("phase|uniform");
-    app.add_option("--splits", o.splits, "1,1,S: S directions from a surface point")
-        ->type_name("N,M,S");
-    app.add_option("--split-depth", o.split_depth, "Only the first K vertices split; default 1")
-        ->check(CLI::Range(1, 8))
+    app.add_option(
+           "--splits", o.splits,
+           "N stops on a segment in a medium, M directions from each, S from a surface point; "
+           "default 1,1,1")
+        ->type_name("N,M[,S]");
+    app.add_option(
+           "--split-depth", o.split_depth,
+           "Only the first K vertices and the segments before them branch; default 1")
+        ->check(CLI::Range(0, 8))
         ->type_name("K");
     app.add_option("--env", o.environment, "Environment map, latitude-longitude .hdr or .exr")
         ->type_name("MAP");
@@ -204,6 +209,7 @@ RenderJob prepare_job(const RenderOptions& options) {
     if (!options.light_choice.empty())
         settings.method.light_choice =
             options.light_choice == "area" ? LightChoice::area : LightChoice::power;
+    settings.method.distances = distances_named(options.distance);
     settings.method.phase_directions = options.direction == "phase";
     settings.termination = parse_termination(options.termination);
     settings.splits = parse_splits(options.splits);

@@ -103,12 +103,13 @@ ordered_json settings_report(const RenderJob& job) {
         {"light_choice", settings.method.light_choice == LightChoice::area ? "area" : "power"},
         {"termination", settings.termination.text()},
         {"sampler", settings.sobol ? "sobol" : "independent"},
-        {"splits", {1, 1, settings.splits}},
+        {"splits",
+         {settings.splits.stops, settings.splits.directions, settings.splits.reflections}},
         {"split_depth", settings.split_depth},
     };
     const auto encloses = [](const Material& m) { return m.boundary != Boundary::opaque; };
     if (std::ranges::any_of(job.scene.materials, encloses)) {
-        report["distance"] = "exponential";
+        report["distance"] = name_of(settings.method.distances);
         report["direction"] = settings.method.phase_directions ? "phase" : "uniform";
     }
     return report;

@@ -48,6 +48,12 @@ DeviceMaterial device_material(const Material& material, uint32_t medium) {
     return d;
 }
 
+bool refracts_roughly(const Material& material) {
+    constexpr float mirror_alpha = 1e-3F;  // kernels/materials/ggx.cl, MIRROR_ALPHA
+    return material.boundary == Boundary::dielectric &&
+           material.roughness * material.roughness >= mirror_alpha;
+}
+
 bool reflects_specularly(const Material& material) {
     return material.boundary == Boundary::opaque &&
            (material.metallic > 0 || material.specular > 0 || material.transmission > 0);

@@ -10,6 +10,9 @@ namespace wavepath {
 // `medium`: MediaTables::rows.
 DeviceMaterial device_material(const Material& material, uint32_t medium);
 
+// Whether it is a boundary of microfacets that refract.
+bool refracts_roughly(const Material& material);
+
 // Whether it has a lobe besides the Lambertian.
 bool reflects_specularly(const Material& material);
 

@@ -26,11 +26,6 @@ double single_albedo(double rho, double g) {
     return rho > 0 ? std::clamp((1 - s * s) / (1 - g * s * s), 0.0, 1.0) : 0.0;
 }
 
-// Mirrors begin at the same alpha (kernels/materials/ggx.cl, MIRROR_ALPHA).
-bool is_smooth(const Material& material) {
-    return material.roughness * material.roughness < 1e-3F;
-}
-
 class MediumReader {
   public:
     MediumReader(const GltfFile& file, int index)
@@ -171,8 +166,6 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
     constexpr const char* instead = "rendered as thin walls";
     if (transmission < 1 || material.metallic > 0)
         ignored.add("volumes that transmit in part", instead);
-    else if (material.ior != 1 && !is_smooth(material))
-        ignored.add("volumes that refract and are rough", instead);
     else if (material.ior < 1)
         ignored.add("volumes that refract with ior 0", instead);
     else if (material.ior == 1 && material.emits())

@@ -1,6 +1,7 @@
 #include "scene/media_tables.h"
 
 #include "error.h"
+#include "scene/device_material.h"
 
 #include <algorithm>
 #include <array>
@@ -165,6 +166,7 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
             const Medium& medium = material.medium;
             tables.media.push_back(device_medium(material, geometry.extent.metres));
             tables.refract = tables.refract || material.boundary == Boundary::dielectric;
+            tables.refract_roughly = tables.refract_roughly || refracts_roughly(material);
             tables.rows[m] = static_cast<uint32_t>(tables.media.size());
             tables.scatter = tables.scatter || medium.scatters();
             tables.emit = tables.emit || medium.emits();

@@ -17,6 +17,7 @@ struct MediaTables {
     bool scatter = false;               // some medium does
     bool emit = false;                  // some medium does
     bool refract = false;               // some boundary does
+    bool refract_roughly = false;       // some boundary does, by microfacets
     std::vector<std::string> warnings;  // about bodies that enclose a medium badly
 };
 

@@ -30,7 +30,10 @@ std::string Features::defines() const {
     define("HAS_ENVIRONMENT", environment);
     define("HAS_ENVIRONMENT_MAP", environment_map);
     define("HAS_MEDIA", media);
+    define("HAS_DIELECTRICS", dielectrics);
+    define("ROUGH_DIELECTRICS", rough_dielectrics);
     define("MEDIA_SCATTER", media_scatter);
+    text += fmt::format("#define DISTANCES {}\n", static_cast<int>(distances));
     define("PHASE_DIRECTIONS", phase_directions);
     define("HAS_SPLITS", split_levels > 0);
     define("SAMPLE_LIGHTS", sample_lights);
@@ -54,7 +57,6 @@ Features features_of(
     const MediaTables& media,
     const TextureTables& textures,
     const Method& method,
-    uint32_t split_levels,
     bool sobol) {
     Features f;
     f.vertex_normals = !geometry.normals.empty();
@@ -91,8 +93,15 @@ Features features_of(
     f.media = !media.media.empty();
     f.media_scatter = media.scatter;
     f.dielectrics = media.refract;
+    f.rough_dielectrics = media.refract_roughly;
+    // Without a light that is somewhere there is no angle to draw distances from.
+    const bool somewhere = std::ranges::any_of(lights.lights, [](const DeviceLight& light) {
+        return light.kind == LIGHT_TRIANGLE || light.kind == LIGHT_POINT;
+    });
+    f.distances = !media.scatter ? Distances::exponential
+                  : method.distances >= Distances::equiangular && !somewhere ? Distances::truncated
+                                                                             : method.distances;
     f.phase_directions = method.phase_directions;
-    f.split_levels = split_levels;
     f.sample_lights = method.sample_lights && !lights.lights.empty();
     f.sample_lobes = method.sample_lobes;
     f.weigh_both = method.weigh_both;

@@ -32,9 +32,11 @@ struct Features {
     bool environment_map = false;
     bool media = false;
     bool media_scatter = false;
-    bool dielectrics = false;  // smooth boundaries that refract
+    bool dielectrics = false;        // boundaries that refract
+    bool rough_dielectrics = false;  // and by microfacets
+    Distances distances = Distances::exponential;
     bool phase_directions = true;
-    uint32_t split_levels = 0;  // vertices that branch
+    uint32_t split_levels = 0;  // vertices that branch; the renderer's to decide
     bool sample_lights = false;
     bool sample_lobes = false;
     bool weigh_both = false;
@@ -57,7 +59,6 @@ Features features_of(
     const MediaTables& media,
     const TextureTables& textures,
     const Method& method,
-    uint32_t split_levels,
     bool sobol);
 
 }  // namespace wavepath

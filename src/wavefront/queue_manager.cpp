@@ -132,8 +132,9 @@ bool QueueManager::render(
         if (work.active <= slots / 2) slots = compact(slots, work.active);
         if (sample_distance_)
             sample_distance_->launch(
-                device_, slots, params_, slots, scene_.media, pool_.rays, pool_.ids, pool_.media,
-                pool_.hits, pool_.surfaces, pool_.throughputs, pool_.radiances);
+                device_, slots, params_, slots, scene_.triangles, scene_.lights, scene_.media,
+                pool_.rays, pool_.media, pool_.hits, pool_.surfaces, pool_.throughputs,
+                pool_.radiances, pool_.ids, pool_.branches);
         interact_.launch(
             device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
             pool_.hits, pool_.surfaces);
@@ -158,10 +159,6 @@ bool QueueManager::render(
                 scene_.textures, scene_.texels[0], scene_.texels[1], scene_.texels[2],
                 scene_.texels[3], pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs,
                 pool_.radiances);
-        if (refract_boundary_)
-            refract_boundary_->launch(
-                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,
-                pool_.surfaces, pool_.rays, pool_.media, pool_.hits, pool_.throughputs, pool_.ids);
         if (direct_light_)
             direct_light_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
@@ -178,21 +175,25 @@ bool QueueManager::render(
             connect_through_media_->launch(
                 device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
                 scene_.materials, scene_.media, scene_.textures, scene_.texels[0], scene_.texels[1],
-                scene_.texels[2], scene_.texels[3], pool_.shadows, pool_.media, pool_.ids,
-                pool_.radiances, pool_.fates);
+                scene_.texels[2], scene_.texels[3], pool_.shadows, pool_.ids, pool_.radiances,
+                pool_.fates);
+        if (refract_boundary_)
+            refract_boundary_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,
+                pool_.surfaces, pool_.rays, pool_.media, pool_.hits, pool_.throughputs, pool_.ids);
         sample_indirect_.launch(
             device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays,
             pool_.hits, pool_.throughputs, pool_.ids, pool_.media, pool_.branches);
         if (scatter_medium_)
             scatter_medium_->launch(
                 device_, slots, params_, slots, scene_.media, pool_.surfaces, pool_.media,
-                pool_.rays, pool_.hits, pool_.throughputs, pool_.ids);
+                pool_.rays, pool_.hits, pool_.throughputs, pool_.ids, pool_.branches);
         roulette_compact_.launch(
             device_, slots, params_, slots, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
         if (resume_branch_)
             resume_branch_->launch(
                 device_, slots, params_, slots, pool_.branches, pool_.hits, pool_.rays,
-                pool_.throughputs, pool_.ids, pool_.fates);
+                pool_.throughputs, pool_.ids, pool_.media, pool_.fates);
         accumulate_.launch(
             device_, slots, params_, slots, pool_.hits, pool_.throughputs, pool_.radiances,
             pool_.ids, cells_, cell_flags_);

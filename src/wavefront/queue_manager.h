@@ -139,8 +139,20 @@ class QueueManager {
         Uints,
         Floats>
         intersect_;
-    std::optional<
-        Stage<Params, cl_uint, Media, Floats, Uints, Floats, Floats, Floats, Floats, Floats>>
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Lights,
+        Media,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Uints,
+        Floats>>
         sample_distance_;
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
     std::optional<Stage<
@@ -242,17 +254,17 @@ class QueueManager {
         Uints,
         Uints,
         Floats,
-        Floats,
         Uints,
         Floats,
         Fates>>
         connect_through_media_;
     Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats, Floats>
         sample_indirect_;
-    std::optional<Stage<Params, cl_uint, Media, Floats, Floats, Floats, Floats, Floats, Uints>>
+    std::optional<
+        Stage<Params, cl_uint, Media, Floats, Floats, Floats, Floats, Floats, Uints, Floats>>
         scatter_medium_;
     Stage<Params, cl_uint, Uints, Floats, Floats, Fates> roulette_compact_;
-    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Fates>>
+    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Floats, Fates>>
         resume_branch_;
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;

@@ -68,7 +68,9 @@ RenderParams scene_params(
                       : settings.termination.kind == TerminationKind::roulette_constant ? 2
                                                                                         : 0;
     params.survival = settings.termination.survival;
-    params.splits = settings.splits;
+    params.splits = settings.splits.reflections;
+    params.stops = settings.splits.stops;
+    params.stop_directions = settings.splits.directions;
     params.split_depth = settings.split_depth;
     params.light_count = static_cast<cl_uint>(tables.lights.size());
     params.environment_pmf = tables.environment_pmf;
@@ -180,14 +182,19 @@ RenderResult render(
     const MediaTables media = build_media_tables(scene, geometry);
     result.warnings = media.warnings;
     check_lights(scene, geometry, tables, media, settings.method, result);
-    if (!media.media.empty() && settings.splits > 1)
+    if (media.scatter && settings.splits.stops > 1 &&
+        settings.method.distances == Distances::exponential)
         throw Error(
-            "--splits: does not work in scenes with media yet ({}); leave it out", scene.name);
+            "--splits with more than one stop: --distance exponential has one or none; choose "
+            "another");
     const TextureTables textures =
         build_texture_tables(scene, worn_materials(scene, geometry), device.info.max_allocation);
-    Features features = features_of(
-        scene, geometry, tables, media, textures, settings.method,
-        settings.splits > 1 ? settings.split_depth : 0, settings.sobol);
+    Features features =
+        features_of(scene, geometry, tables, media, textures, settings.method, settings.sobol);
+    const bool branches = settings.splits.reflections > 1 ||
+                          (media.scatter && (settings.splits.directions > 1 ||
+                                             features.distances != Distances::exponential));
+    features.split_levels = branches ? settings.split_depth : 0;
     result.times.normalise = watch.lap();
     Bvh bvh = build_bvh(geometry.positions);
     if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));

@@ -23,7 +23,7 @@ struct RenderSettings {
     uint32_t seed = 1;
     Method method = method_named("mis");
     Termination termination;
-    uint32_t splits = 1;
+    Splits splits;
     uint32_t split_depth = 1;
     bool sobol = true;
     uint32_t pool = 0;  // path slots; 0: the device's default

@@ -1,6 +1,8 @@
+#include "shared/features.h"
 #include "support/probe.h"
 #include "support/statistics.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,10 +12,7 @@
 namespace wavepath {
 namespace {
 
-const Probe& probe() {
-    static const Probe instance(
-        {"media/homogeneous.cl", "media/medium_stack.cl"},
-        R"(
+constexpr const char* kernels = R"(
 kernel void exponentials(const uint count, global float* out, global const float* x) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
@@ -37,6 +36,25 @@ kernel void events(
     out[5 * i + 4] = e.weight.z;
 }
 
+// the same of a stop in view of a point (height 0: of none)
+kernel void stops(
+    const uint count, global float* out, const float length, const float along,
+    const float height, global const DeviceMedium* medium) {
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) return;
+    const Vec3 pmf = vec3(0.2f, 0.5f, 0.3f);
+    View view = no_view();
+    if (height > 0.0f)
+        view = view_from(vec3(along, height, 0.0f), vec3(1.0f, 0.0f, 0.0f), length);
+    const MediumEvent e = sample_stop(
+        medium, length, absorptance(scale3(extinction(medium), length)), pmf, view,
+        unit_pair(independent_pair(i, 43)));
+    out[4 * i] = e.distance;
+    out[4 * i + 1] = e.weight.x;
+    out[4 * i + 2] = e.weight.y;
+    out[4 * i + 3] = e.weight.z;
+}
+
 kernel void stacks(const uint count, global uint* out) {
     if (get_global_id(0) >= count) return;
     uint stack = 0;
@@ -53,7 +71,14 @@ kernel void stacks(const uint count, global uint* out) {
     out[5] = leave_medium(leave_medium(leave_medium(stack, 9), 7), 3);
     out[6] = leave_medium(out[5], 3);
 }
-)");
+)";
+
+Probe probe_with(const std::string& defines) {
+    return {{"media/homogeneous.cl", "media/medium_stack.cl"}, kernels, defines};
+}
+
+const Probe& probe() {
+    static const Probe instance = probe_with("");
     return instance;
 }
 
@@ -99,6 +124,52 @@ TEST(Homogeneous, DistancesAreUnbiasedInEveryChannel) {
             EXPECT_NEAR(passes.mean(), left, z * passes.standard_error()) << c;
             EXPECT_NEAR(stops.mean(), albedo * (1 - left), z * stops.standard_error()) << c;
         }
+    }
+}
+
+// E[weight] = albedo (1 - exp(-sigma_t length)) of stops that are certain, and the distances'
+// moments: truncated exponentials of sigma_t = 1; equiangular ones on [-2, 5] from height 0.5.
+TEST(Homogeneous, StopsAreUnbiasedInEveryChannel) {
+    const std::size_t n = scaled(1U << 20U);
+    constexpr float albedo = 0.8F;
+    constexpr float length = 7;
+    constexpr double z = 5.5;
+    const auto medium = [&](const std::array<float, 3>& sigma_t) {
+        std::vector<float> rows;
+        for (const float sigma : sigma_t) rows.insert(rows.end(), {sigma, albedo * sigma, 0, 0});
+        return rows;
+    };
+    const auto distance_is = [&](const std::vector<float>& out, double mean) {
+        Moments distances;
+        for (std::size_t i = 0; i < n; ++i) distances.add(out[4 * i]);
+        EXPECT_NEAR(distances.mean(), mean, z * distances.standard_error());
+    };
+    for (const int distances :
+         {DISTANCE_UNIFORM, DISTANCE_TRUNCATED, DISTANCE_EQUIANGULAR, DISTANCE_MIS}) {
+        SCOPED_TRACE(distances);
+        const Probe variant = probe_with(fmt::format("#define DISTANCES {}\n", distances));
+        constexpr std::array sigma_t{0.02F, 0.3F, 1.0F};
+        for (const float height : {0.0F, 0.5F, 1e-3F}) {
+            const auto out =
+                variant.run<float>("stops", n, 4 * n, length, 2.0F, height, medium(sigma_t));
+            for (std::size_t c = 0; c < 3; ++c) {
+                Moments weights;
+                for (std::size_t i = 0; i < n; ++i) weights.add(out[4 * i + 1 + c]);
+                const double truth = albedo * -std::expm1(-length * double{sigma_t[c]});
+                // close to the point equiangular weights far from it are as rare as they are large
+                if (height == 1e-3F && distances == DISTANCE_EQUIANGULAR) continue;
+                EXPECT_NEAR(weights.mean(), truth, z * weights.standard_error()) << c;
+                EXPECT_LT(weights.standard_error(), 0.01 * truth) << c;
+            }
+        }
+        if (distances == DISTANCE_EQUIANGULAR)
+            distance_is(
+                variant.run<float>("stops", n, 4 * n, length, 2.0F, 0.5F, medium(sigma_t)),
+                2 + .159272613286);
+        if (distances == DISTANCE_TRUNCATED)
+            distance_is(
+                variant.run<float>("stops", n, 4 * n, 5.0F, 0.0F, 0.0F, medium({1, 1, 1})),
+                .966081725468);
     }
 }
 

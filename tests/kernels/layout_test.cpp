@@ -65,7 +65,8 @@ namespace {
     FIELD(RenderParams, environment_width) FIELD(RenderParams, environment_height)                \
     FIELD(RenderParams, environment_r) FIELD(RenderParams, environment_g)                         \
     FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)                       \
-    FIELD(RenderParams, camera_media) FIELD(RenderParams, padding)                                \
+    FIELD(RenderParams, camera_media) FIELD(RenderParams, stops)                                  \
+    FIELD(RenderParams, stop_directions) FIELD(RenderParams, padding)                                \
     STRUCT(PlanRow)                                                                               \
     FIELD(PlanRow, first_sample) FIELD(PlanRow, samples) FIELD(PlanRow, batch_start)              \
     FIELD(PlanRow, closes_batch)                                                                  \

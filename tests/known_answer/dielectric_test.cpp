@@ -91,5 +91,29 @@ TEST(Dielectric, SlabOfAScatteringMedium) {
         .286434242 + .421845674, strictness));
 }
 
+// Light points through and on microfacets, against directions of the lobe alone: the same picture.
+TEST(Dielectric, RoughBallIsLitAlikeByEveryMethod) {
+    Scene scene = scene_named("rough ball");
+    scene.environment = constant_environment(0.2F);
+    Material material = glass(1.5, medium_of(0.3, 0));
+    material.roughness = 0.6F;
+    material.base_color = {0.9F, 0.5F, 0.9F};
+    add_icosphere(scene, material, {0, 0, 0}, 1, 3);
+    add_square(scene, lambert(grey(0), grey(3), true), {0, 0.5, -2.5}, {0, 0, 1}, 2);
+    std::vector<RenderResult> results;
+    for (const char* method : {"bsdf", "direct", "mis"}) {
+        RenderSettings settings =
+            square_settings(method, perspective({0.5, 0.8, 3}, {0, 0, 0}, 0.5), 32, 512);
+        settings.seed = static_cast<uint32_t>(results.size() + 1);
+        results.push_back(render_scene(scene, settings));
+    }
+    for (std::size_t k = 1; k < results.size(); ++k)
+        for (const char* channel : {"R", "G"})
+            EXPECT_TRUE(agree(
+                image_mean(results[0], channel), image_mean(results[k], channel),
+                {.bias = 0.015, .tests = 4}))
+                << k << ", " << channel;
+}
+
 }  // namespace
 }  // namespace wavepath

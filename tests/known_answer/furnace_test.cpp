@@ -55,7 +55,7 @@ TEST(Furnace, SplitsChangeNoMean) {
     for (const char* method : {"path", "mis"}) {
         for (const TerminationKind kind : {TerminationKind::roulette, TerminationKind::depth}) {
             RenderSettings settings = square_settings(method, inside, 64, 16);
-            settings.splits = 3;
+            settings.splits.reflections = 3;
             settings.split_depth = 2;
             settings.termination = {kind, 4, 1};
             const RenderResult result = render_scene(furnace(), settings);

@@ -57,7 +57,7 @@ TEST(Determinism, OfCountsThatComeLate) {
     for (const uint32_t splits : {1U, 3U}) {
         RenderSettings settings = uneven();
         settings.samples = 4;
-        settings.splits = splits;
+        settings.splits.reflections = splits;
         settings.pool = 1000;
         const RenderResult exact = render_scene(room(), settings);
         for (const uint32_t lag : {1U, 2U}) {
@@ -75,7 +75,7 @@ TEST(Determinism, OfCountsThatComeLate) {
 TEST(Determinism, OfSplitsInTwoPools) {
     RenderSettings settings = uneven();
     settings.samples = 3;
-    settings.splits = 3;
+    settings.splits.reflections = 3;
     settings.split_depth = 2;
     const RenderResult first = render_scene(room(), settings);
     settings.pool = 500;
