@@ -46,7 +46,7 @@ TEST(MediaStability, SmallAnisotropyIsNone) {
 }
 
 // A room of fog with a ball of another medium in it; the camera is in the fog.
-TEST(MediaStability, SameBytesOfPoolsAndWorkGroups) {
+Scene foggy_room() {
     Scene scene = scene_named("foggy room");
     add_box(scene, lambert({0.7F, 0.5F, 0.4F}), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
     add_square(scene, lambert(grey(0), grey(6)), {0, 0.9, 0}, {0, -1, 0}, 0.8);
@@ -54,27 +54,47 @@ TEST(MediaStability, SameBytesOfPoolsAndWorkGroups) {
     fog.sigma_a = {0.3F, 0.1F, 0};
     add_box(scene, boundary_of(fog), {-1.1, -1.1, -1.1}, {1.1, 1.1, 1.1}, Facing::outward);
     add_icosphere(scene, boundary_of(medium_of(8, 0.99, -0.3)), {-0.3, -0.3, 0}, 0.4, 2);
+    return scene;
+}
+
+const Camera in_the_fog = perspective({0.8, 0.2, 0.9}, {-0.2, -0.4, -0.3}, 1.2);
+
+void expect_same(const RenderResult& a, const RenderResult& b) {
+    for (const auto& [name, plane] : a.film.image.channels)
+        EXPECT_EQ(
+            std::memcmp(
+                plane.data(), b.film.image.channels.at(name).data(), plane.size() * sizeof(float)),
+            0)
+            << name;
+}
+
+TEST(MediaStability, SameBytesOfPoolsAndWorkGroups) {
     // 37 x 23 pixels of 13 samples: nothing divides evenly
-    RenderSettings settings =
-        square_settings("mis", perspective({0.8, 0.2, 0.9}, {-0.2, -0.4, -0.3}, 1.2), 37, 13);
+    RenderSettings settings = square_settings("mis", in_the_fog, 37, 13);
     settings.height = 23;
-    const RenderResult first = render_scene(scene, settings);
-    const auto same = [&](const RenderResult& other) {
-        for (const auto& [name, plane] : first.film.image.channels)
-            EXPECT_EQ(
-                std::memcmp(
-                    plane.data(), other.film.image.channels.at(name).data(),
-                    plane.size() * sizeof(float)),
-                0)
-                << name;
-    };
+    const RenderResult first = render_scene(foggy_room(), settings);
     for (const uint32_t pool : {300U, 1000U, 200000U}) {
         SCOPED_TRACE(pool);
         settings.pool = pool;
-        same(render_scene(scene, settings));
+        expect_same(first, render_scene(foggy_room(), settings));
     }
     settings.work_groups = {16, 64};
-    same(render_scene(scene, settings));
+    expect_same(first, render_scene(foggy_room(), settings));
+}
+
+// The same where segments and stops branch.
+TEST(MediaStability, SameBytesOfPoolsWithSplits) {
+    RenderSettings settings = square_settings("mis", in_the_fog, 37, 5);
+    settings.height = 23;
+    settings.method.distances = Distances::mis;
+    settings.splits = {2, 2, 2};
+    settings.split_depth = 2;
+    const RenderResult first = render_scene(foggy_room(), settings);
+    for (const uint32_t pool : {300U, 200000U}) {
+        SCOPED_TRACE(pool);
+        settings.pool = pool;
+        expect_same(first, render_scene(foggy_room(), settings));
+    }
 }
 
 }  // namespace
