@@ -70,8 +70,8 @@ std::uint32_t word_at(std::span<const unsigned char> bytes, std::size_t offset) 
 void check_glb_header(std::span<const unsigned char> bytes, const std::string& name) {
     if (bytes.size() >= 8 && word_at(bytes, 4) != 2)
         throw Error("{}: is binary glTF version {}; export as glTF 2.0", name, word_at(bytes, 4));
-    bool is_whole = bytes.size() >= glb_header_size && bytes.size() >= word_at(bytes, 8) &&
-                    bytes.size() - glb_header_size >= word_at(bytes, 12);
+    bool is_whole = bytes.size() >= glb_header_size && word_at(bytes, 8) >= glb_header_size &&
+                    bytes.size() >= word_at(bytes, 8);
     // chunks: length, type, data
     for (std::size_t at = 12; is_whole && at + 8 <= word_at(bytes, 8);
          at += 8 + std::size_t{word_at(bytes, at)})

@@ -111,6 +111,7 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --splits 2", "--splits 2");
     expect_refused(cornell_box + " --splits 2,0", "--splits 2,0");
     expect_refused(cornell_box + " --camera nobody", "--camera nobody");
+    expect_refused(cornell_box + " --scene nobody", "--scene nobody");
     expect_refused(cornell_box + " --look-at 0,0,0,0,0,0", "--look-at");
     expect_refused(cornell_box + " --env-radiance 1,2", "--env-radiance 1,2");
     expect_refused(cornell_box + " --env " + path("no.hdr"), "no.hdr");
