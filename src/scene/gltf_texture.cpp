@@ -14,14 +14,6 @@ constexpr bool is_srgb(TextureUse use) {
     return use == TEXTURE_BASE_COLOR || use == TEXTURE_EMISSION || use == TEXTURE_SPECULAR_COLOR;
 }
 
-int integer(
-    const GltfFile& file, std::string_view where, const tinygltf::Value& object, const char* key) {
-    if (!object.Has(key)) return 0;
-    const tinygltf::Value& value = object.Get(key);
-    if (!value.IsInt()) file.fail(where, "{} is not an integer; repair it or export again", key);
-    return value.GetNumberAsInt();
-}
-
 Wrap wrap_of(const GltfFile& file, std::string_view where, int mode) {
     switch (mode) {
         case TINYGLTF_TEXTURE_WRAP_REPEAT:
@@ -79,7 +71,7 @@ void TextureReader::read(TextureUse use, const tinygltf::Value& extension, const
         const tinygltf::Value& members = info.Get("extensions");
         for (const std::string& name : members.Keys()) extensions[name] = members.Get(name);
     }
-    add(use, integer(file_, where_, info, "index"), integer(file_, where_, info, "texCoord"),
+    add(use, integer(file_, where_, info, "index"), integer(file_, where_, info, "texCoord", 0),
         extensions);
 }
 

@@ -35,7 +35,7 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
       media(device, features.media ? std::size_t{MEDIUM_PLANES} * stride : 0, "path pool"),
       branches(
           device,
-          std::size_t{features.media ? 2 * BRANCH_PLANES : BRANCH_PLANES_SURFACE} *
+          static_cast<std::size_t>(features.media ? 2 * BRANCH_PLANES : BRANCH_PLANES_SURFACE) *
               features.split_levels * stride,
           "path pool"),
       ids(device,

@@ -407,7 +407,7 @@ TEST(Textures, AreTheSameInTwoPoolsAndPages) {
     settings.pool = 100;
     expect_same_bits(first, render_scene(everything(), settings));
     settings.work_groups = {16, 64};
-    settings.splits = 2;
+    settings.splits.reflections = 2;
     const RenderResult split = render_scene(everything(), settings);
     settings.pool = 0;
     expect_same_bits(split, render_scene(everything(), settings));

@@ -220,9 +220,9 @@ TEST(GltfTexture, RefusesMoreTexelsThanAllowed) {
     const auto path = folder.write(
         "scene.gltf",
         textured(plain_info, data_uri(png_file(8, 8, std::vector<uint8_t>(256, 77)))).text());
-    EXPECT_EQ(load_gltf(path, 64).images.size(), 1U);
+    EXPECT_EQ(load_gltf(path, "", 64).images.size(), 1U);
     EXPECT_THAT(
-        error_of([&] { load_gltf(path, 63); }),
+        error_of([&] { load_gltf(path, "", 63); }),
         HasSubstr("allowed; shrink them or raise --max-texels"));
 }
 

@@ -197,7 +197,7 @@ TEST(SampleFiles, MalformedFilesAreRefusedInOneLineOrRendered) {
         if (refusal == refusals.end()) {
             Scene scene = load_gltf(path);
             EXPECT_EQ(scene.triangle_count(), 2U);
-            scene.environment = Environment{{1, 1, 1}, 0, 0, {}};
+            scene.environment = constant_environment(1);
             const RenderResult result =
                 render_scene(scene, square_settings("mis", choose_camera(scene, ""), 16, 1));
             EXPECT_EQ(result.film.nonfinite.samples, 0U);
