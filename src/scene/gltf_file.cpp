@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 // Sorted.
 constexpr std::array<std::string_view, 9> supported_extensions{
-    "EXT_texture_webp",      "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",     "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_mesh_quantization", "KHR_texture_transform"};
+    "EXT_texture_webp",    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",   "KHR_materials_specular", "KHR_materials_transmission",
+    "KHR_materials_unlit", "KHR_mesh_quantization",  "KHR_texture_transform"};
 
 // Magic, version, length; length and type of the JSON chunk.
 constexpr std::size_t glb_header_size = 20;
@@ -110,6 +110,18 @@ bool leave_image_encoded(
     return true;
 }
 
+// tinygltf takes data URIs of types that it does not know for names of files.
+void decode_data_uris(tinygltf::Model& model) {
+    for (tinygltf::Image& image : model.images) {
+        const std::size_t comma = image.uri.find(',');
+        if (!image.uri.starts_with("data:") || comma == image.uri.npos) continue;
+        const std::string known = "data:application/octet-stream;base64" + image.uri.substr(comma);
+        std::string type;
+        tinygltf::DecodeDataURI(&image.image, type, known, 0, false);
+        image.uri.clear();
+    }
+}
+
 // glTF does not require these matrices [glTF 2.0, section 5.28], tinygltf does.
 void forgive_skins(std::string& error) {
     constexpr std::string_view complaint = "'inverseBindMatrices' property is missing in Skin.\n";
@@ -136,6 +148,7 @@ std::string parse(
                       &model, &error, &warning, reinterpret_cast<const char*>(bytes.data()), size,
                       folder.string());
         forgive_skins(error);
+        decode_data_uris(model);
         if (!parsed && error.empty()) error = "it cannot be parsed";
     } catch (const std::exception& exception) {
         error = fmt::format("it cannot be parsed ({})", exception.what());
