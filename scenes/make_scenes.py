@@ -5,7 +5,7 @@
     make_scenes.py --check    compare with what is there; exit 1 and name the files that differ
 
 Units: metres and linear RGB radiance; +Y is up. Everything is diffuse (KHR_materials_specular with specularFactor 0)
-unless `metallic` is said. Lights emit from the front of their triangles only; all else is seen from both sides.
+unless `metallic` or `boundary` is said. Lights emit from the front of their triangles only; all else is seen from both sides.
 The same input gives the same bytes on every machine: vertices are rounded to float32, camera angles to 12 digits.
 """
 import base64
@@ -44,6 +44,45 @@ def cuboid(center, half, degrees=0.0, inward=False):
     return vertices, triangles
 
 
+def ball(center, radius, subdivisions):
+    """An icosphere, its corners on the sphere."""
+    t = (1.0 + math.sqrt(5.0)) / 2.0
+    vertices = [(s, u * t, 0.0) for u in (1, -1) for s in (-1, 1)]
+    vertices = [v[k:] + v[:k] for k in (0, 2, 1) for v in vertices]
+    length = math.sqrt(1.0 + t * t)
+    vertices = [tuple(c / length for c in v) for v in vertices]
+    edge2 = 4.0 / (length * length)
+
+    def near(i, j):
+        return abs(sum((a - b) ** 2 for a, b in zip(vertices[i], vertices[j])) - edge2) < 1e-9
+
+    def outward(i, j, k):
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = vertices[i], vertices[j], vertices[k]
+        return ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx) > 0
+
+    triangles = [
+        (i, j, k) if outward(i, j, k) else (i, k, j)
+        for i in range(12) for j in range(i) for k in range(j) if near(i, j) and near(j, k) and near(i, k)
+    ]
+    for _ in range(subdivisions):
+        middles, finer = {}, []
+
+        def middle(i, j):
+            key = (min(i, j), max(i, j))
+            if key not in middles:
+                total = [a + b for a, b in zip(vertices[i], vertices[j])]
+                norm = math.sqrt(sum(c * c for c in total))
+                vertices.append(tuple(c / norm for c in total))
+                middles[key] = len(vertices) - 1
+            return middles[key]
+
+        for i, j, k in triangles:
+            ij, jk, ki = middle(i, j), middle(j, k), middle(k, i)
+            finer += [(i, ij, ki), (j, jk, ij), (k, ki, jk), (ij, jk, ki)]
+        triangles = finer
+    return [tuple(c + radius * x for c, x in zip(center, v)) for v in vertices], triangles
+
+
 # --- materials and cameras ---------------------------------------------------------------------------------------------
 
 
@@ -71,6 +110,21 @@ def metal(name, color, roughness):
         "name": name,
         "doubleSided": True,
         "pbrMetallicRoughness": {"baseColorFactor": [*color, 1.0], "metallicFactor": 1.0, "roughnessFactor": roughness},
+    }
+
+
+def boundary(name, sigma_a, sigma_s=(0.0,) * 3, g=0.0, ior=1.0):
+    """A smooth boundary, index-matched unless `ior` is said, around a medium; coefficients in 1/m (docs/media.md)."""
+    surface = {"metallicFactor": 0.0} if ior == 1.0 else {"metallicFactor": 0.0, "roughnessFactor": 0.0}
+    return {
+        "name": name,
+        "pbrMetallicRoughness": surface,
+        "extensions": {
+            "KHR_materials_ior": {"ior": ior},
+            "KHR_materials_transmission": {"transmissionFactor": 1.0},
+            "KHR_materials_volume": {"thicknessFactor": 1.0},
+        },
+        "extras": {"wavepath_medium": {"sigma_a": list(sigma_a), "sigma_s": list(sigma_s), "g": g}},
     }
 
 
@@ -149,7 +203,71 @@ def white_furnace():
     return [("walls", cuboid((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), inward=True), walls)], camera((0.2, 0.1, 0.6), 60.0)
 
 
-SCENES = {f.__name__: f for f in (cornell_box, box_light, veach_plates, white_furnace)}
+def fog_shaft():
+    """Light falls through a hole in the ceiling of a room of fog."""
+    hole, lamp_height = 0.15, 2.4
+    walls = [mesh for mesh in room() if mesh[0] != "ceiling"]
+    strips = (
+        ("ceiling left", rectangle((-1, 1, -1), (-hole, 1, -1), (-hole, 1, 1), (-1, 1, 1)), WHITE),
+        ("ceiling right", rectangle((hole, 1, -1), (1, 1, -1), (1, 1, 1), (hole, 1, 1)), WHITE),
+        ("ceiling back", rectangle((-hole, 1, -1), (hole, 1, -1), (hole, 1, -hole), (-hole, 1, -hole)), WHITE),
+        ("ceiling front", rectangle((-hole, 1, hole), (hole, 1, hole), (hole, 1, 1), (-hole, 1, 1)), WHITE),
+    )
+    light = rectangle(*((x, lamp_height, z) for x, z in ((-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1))))
+    fog = boundary("fog", (0.02,) * 3, (0.4,) * 3, 0.3)
+    return [
+        *walls, *strips, tall_box(), ("light", light, lamp("light", 1500.0)),
+        ("fog", cuboid((0.0, 0.0, 0.0), (1.1, 1.1, 1.1)), fog),
+    ], ROOM_CAMERA
+
+
+def slab():
+    """A plate of thickness 1 m, optical thickness 0.1, 1, 10 in R, G, B, albedo 0.9; its sides are out of sight."""
+    taus = (0.1, 1.0, 10.0)
+    medium = boundary("slab", [round(0.1 * t, 6) for t in taus], [round(0.9 * t, 6) for t in taus], 0.0)
+    return [("slab", cuboid((0.0, 0.0, 0.0), (400.0, 0.5, 400.0)), medium)], camera((0.0, 2.5, 0.0), 0.5, -90.0)
+
+
+def studio(light_radiance):
+    """A floor and a lamp above it, 2 m wide."""
+    lamp_corners = ((-0.5, 2.5, -0.5), (0.5, 2.5, -0.5), (0.5, 2.5, 0.5), (-0.5, 2.5, 0.5))
+    return [
+        ("floor", rectangle((-3, 0, 3), (3, 0, 3), (3, 0, -3), (-3, 0, -3)), WHITE),
+        ("light", rectangle(*lamp_corners), lamp("light", light_radiance)),
+    ]
+
+
+STUDIO_CAMERA = camera((0.0, 1.4, 4.0), 25.0, -14.0)
+
+
+def milk():
+    """A ball of a medium that scatters as milk does under a lamp."""
+    medium = boundary("milk", (0.01, 0.02, 0.1), (10.0,) * 3)
+    return [*studio(10.0), ("milk", ball((0.0, 0.51, 0.0), 0.5, 4), medium)], STUDIO_CAMERA
+
+
+def absorbing_glass():
+    """Three balls of glass that absorb more and more."""
+    balls = [
+        (f"glass {i}", ball((0.95 * (i - 1), 0.41, 0.0), 0.4, 4), boundary(f"glass {i}", [round(s * a, 6) for a in (5.0, 1.25, 0.25)], ior=1.5))
+        for i, s in enumerate((0.0, 0.5, 1.0))
+    ]
+    return [*studio(20.0), *balls], STUDIO_CAMERA
+
+
+def glass_of_liquid():
+    """A hollow block of glass, two thirds full; the liquid reaches 1 cm into the glass."""
+    glass, liquid = boundary("glass", (0.0,) * 3, ior=1.5), boundary("liquid", (2.0, 0.4, 0.1), ior=1.33)
+    outer, hollow = cuboid((0.0, 0.51, 0.0), (0.4, 0.5, 0.4), 30.0), cuboid((0.0, 0.51, 0.0), (0.34, 0.44, 0.34), 30.0, inward=True)
+    shell = outer[0] + hollow[0], outer[1] + [tuple(i + 8 for i in t) for t in hollow[1]]
+    filling = cuboid((0.0, 0.36, 0.0), (0.35, 0.3, 0.35), 30.0)
+    return [*studio(20.0), ("glass", shell, glass), ("liquid", filling, liquid)], STUDIO_CAMERA
+
+
+SCENES = {
+    f.__name__: f for f in (
+        cornell_box, box_light, veach_plates, white_furnace, fog_shaft, slab, milk, absorbing_glass, glass_of_liquid)
+}
 
 
 # --- glTF --------------------------------------------------------------------------------------------------------------

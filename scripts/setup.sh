@@ -15,8 +15,8 @@ fail() {
 build_packages=(
     cmake ninja-build g++
     ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
-    libcli11-dev libembree-dev libfmt-dev libopenexr-dev libspdlog-dev libstb-dev libtinygltf-dev libwebp-dev
-    nlohmann-json3-dev pkgconf
+    libcli11-dev libdraco-dev libembree-dev libfmt-dev libmeshoptimizer-dev libopenexr-dev libspdlog-dev libstb-dev
+    libtinygltf-dev libwebp-dev nlohmann-json3-dev pkgconf
 )
 test_packages=(libbenchmark-dev libgmock-dev libgtest-dev)
 # The tests that use one of these are skipped, with the reason, where the distribution does not have it.

@@ -1,6 +1,6 @@
 // Writes the terrain scene, about a million triangles, as binary glTF (scenes/terrain/README.md
 // says what it shows).
-//   make_terrain OUT.glb
+//   make_terrain OUT.glb [SIDE]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -21,7 +22,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 
-constexpr uint32_t side = 707;     // vertices along each edge: 2 * 706^2 = 996872 triangles
+// Vertices along each edge: 2 * 706^2 = 996872 triangles.
+constexpr uint32_t default_side = 707;
 constexpr double half_extent = 2;  // [m]
 
 // One term of the height: amplitude * sin(frequency x + phase) * cos(0.9 frequency z + 2 phase).
@@ -39,19 +41,19 @@ constexpr std::array<Wave, 6> waves{
      {83, 0.012, 1.9},
      {211, 0.005, 0.2}}};
 
-double coordinate(uint32_t step) {
+double coordinate(uint32_t step, uint32_t side) {
     return -half_extent + step * (2 * half_extent / (side - 1));
 }
 
 // x outer, z inner.
-std::vector<float> make_positions() {
+std::vector<float> make_positions(uint32_t side) {
     // Each term is a product of a function of x and one of z: side, not side^2, of each are needed.
     std::vector<std::array<double, waves.size()>> along_x(side), along_z(side);
     for (uint32_t step = 0; step < side; ++step) {
         for (std::size_t k = 0; k < waves.size(); ++k) {
             const auto& [frequency, amplitude, phase] = waves[k];
-            along_x[step][k] = amplitude * std::sin(frequency * coordinate(step) + phase);
-            along_z[step][k] = std::cos(0.9 * frequency * coordinate(step) + 2 * phase);
+            along_x[step][k] = amplitude * std::sin(frequency * coordinate(step, side) + phase);
+            along_z[step][k] = std::cos(0.9 * frequency * coordinate(step, side) + 2 * phase);
         }
     }
     std::vector<float> positions;
@@ -60,14 +62,14 @@ std::vector<float> make_positions() {
         for (uint32_t j = 0; j < side; ++j) {
             double height = 0;
             for (std::size_t k = 0; k < waves.size(); ++k) height += along_x[i][k] * along_z[j][k];
-            for (const double c : {coordinate(i), height, coordinate(j)})
+            for (const double c : {coordinate(i, side), height, coordinate(j, side)})
                 positions.push_back(static_cast<float>(c));
         }
     }
     return positions;
 }
 
-std::vector<uint32_t> make_indices() {
+std::vector<uint32_t> make_indices(uint32_t side) {
     std::vector<uint32_t> indices;
     indices.reserve(std::size_t{6} * (side - 1) * (side - 1));
     for (uint32_t i = 0; i + 1 < side; ++i) {
@@ -149,9 +151,9 @@ void write_glb(
             static_cast<std::streamsize>(bytes.size()));
 }
 
-void make_terrain(const std::filesystem::path& path) {
-    const std::vector<float> positions = make_positions();
-    const std::vector<uint32_t> indices = make_indices();
+void make_terrain(const std::filesystem::path& path, uint32_t side) {
+    const std::vector<float> positions = make_positions(side);
+    const std::vector<uint32_t> indices = make_indices(side);
     const std::filesystem::path unfinished = path.string() + ".part";
     std::ofstream out(unfinished, std::ios::binary);
     write_glb(out, make_json(positions, indices), positions, indices);
@@ -165,12 +167,14 @@ void make_terrain(const std::filesystem::path& path) {
 }  // namespace
 
 int main(int argument_count, char** arguments) {
-    if (argument_count != 2) {
-        fmt::print(stderr, "usage: make_terrain OUT.glb\n");
+    const uint32_t side =
+        argument_count == 3 ? static_cast<uint32_t>(std::atoi(arguments[2])) : default_side;
+    if (argument_count < 2 || argument_count > 3 || side < 2 || side > 10000) {
+        fmt::print(stderr, "usage: make_terrain OUT.glb [SIDE], 2 to 10000 vertices a side\n");
         return 2;
     }
     try {
-        make_terrain(arguments[1]);
+        make_terrain(arguments[1], side);
     } catch (const std::exception& error) {
         fmt::print(stderr, "error: {}\n", error.what());
         return 1;

@@ -72,10 +72,14 @@ INLINE SlabRay slab_ray(
     return ray;
 }
 
-// Which children's boxes the ray crosses before t_max (-1), and where it enters them. A box entered
-// at t_max itself counts: what it holds may lie at the same distance and have a lower id.
-INLINE int8
-intersect_node(global const BvhNode* node, const SlabRay* ray, const float t_max, float8* t_near) {
+// Which children's boxes the ray crosses in [t_min, t_max] (-1), and where it enters them. A box
+// entered at t_max itself counts: what it holds may lie at the same distance and have a lower id.
+INLINE int8 intersect_node(
+    global const BvhNode* node,
+    const SlabRay* ray,
+    const float t_min,
+    const float t_max,
+    float8* t_near) {
     global const float* rows = &node->bounds[0][0][0];
     const float8 ix = ray->ix;
     const float8 iy = ray->iy;
@@ -86,14 +90,36 @@ intersect_node(global const BvhNode* node, const SlabRay* ray, const float t_max
     const float8 far_x = fma(vload8(0, rows + (ray->row_x ^ 8)), ix, (float8)(ray->far_x));
     const float8 far_y = fma(vload8(0, rows + (ray->row_y ^ 8)), iy, (float8)(ray->far_y));
     const float8 far_z = fma(vload8(0, rows + (ray->row_z ^ 8)), iz, (float8)(ray->far_z));
-    *t_near = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
+    *t_near = max(max(near_x, near_y), max(near_z, (float8)(t_min)));
     return *t_near <= min(min(far_x, far_y), min(far_z, (float8)(t_max)));
+}
+
+// Where a ray begins among the triangles it meets, which follow one another by distance, then id:
+// behind the last boundary it passed (with HAS_MEDIA), so that none is met twice and none left out.
+typedef struct {
+    float t;
+    int primitive;
+} RayStart;
+
+INLINE RayStart ray_start(const float t, const int primitive) {
+    RayStart start;
+    start.t = t;
+    start.primitive = primitive;
+    return start;
+}
+
+INLINE RayStart at_origin(void) {
+    return ray_start(0.0f, -1);
 }
 
 // Keeps the closest of the block's hits. At equal distance the lowest id wins, so that the order of
 // the tree decides nothing.
 INLINE void closest_in_block(
-    global const TriangleBlock* block, const ShearedRay* ray, const Cover* cover, Hit* hit) {
+    global const TriangleBlock* block,
+    const ShearedRay* ray,
+    const RayStart start,
+    const Cover* cover,
+    Hit* hit) {
     float8 t, u, v;
     uint lanes = lane_mask(intersect_block(block, ray, hit->t, &t, &u, &v));
     if (lanes == 0) return;
@@ -106,6 +132,9 @@ INLINE void closest_in_block(
         lanes ^= 1u << lane;
         const uint entry = block->primitives[lane];
         const int primitive = (int)(HAS_ALPHA ? entry & ~BVH_HOLES : entry);
+        if (HAS_MEDIA &&
+            (ts[lane] < start.t || (ts[lane] == start.t && primitive <= start.primitive)))
+            continue;
         if (ts[lane] < hit->t || (ts[lane] == hit->t && primitive < hit->primitive)) {
             if (HAS_ALPHA && (entry & BVH_HOLES) != 0 &&
                 !stops_ray(cover, primitive, us[lane], vs[lane]))
@@ -140,10 +169,10 @@ INLINE int any_in_block(
     return 0;
 }
 
-// The closest triangle in (0, t_max) that stops the ray: the nearest child is entered, the others
-// wait with their distances and are dropped when a hit has come nearer. Not inlined: PoCL would
-// give every work-item of a group a stack of its own, where one serves all in turn and stays in the
-// cache.
+// The closest triangle behind `start` and before t_max that stops the ray: the nearest child is
+// entered, the others wait with their distances and are dropped when a hit has come nearer. Not
+// inlined: PoCL would give every work-item of a group a stack of its own, where one serves all in
+// turn and stays in the cache.
 Hit closest_hit(
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
@@ -154,6 +183,7 @@ Hit closest_hit(
     const float dy,
     const float dz,
     const float t_max,
+    const RayStart start,
     const Cover* cover) {
     const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
@@ -165,10 +195,11 @@ Hit closest_hit(
     for (;;) {
         uint lanes = 0;
         if (current & BVH_LEAF) {
-            closest_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, &hit);
+            closest_in_block(blocks + (current & ~BVH_LEAF), &sheared, start, cover, &hit);
         } else {
             float8 t_near;
-            lanes = lane_mask(intersect_node(nodes + current, &slabs, hit.t, &t_near));
+            lanes = lane_mask(intersect_node(
+                nodes + current, &slabs, HAS_MEDIA ? start.t : 0.0f, hit.t, &t_near));
             if (lanes != 0) {
                 float ts[8];
                 vstore8(t_near, 0, ts);
@@ -225,7 +256,7 @@ int any_hit(
             if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, end)) return 1;
         } else {
             float8 t_near;
-            uint lanes = lane_mask(intersect_node(nodes + current, &slabs, end, &t_near));
+            uint lanes = lane_mask(intersect_node(nodes + current, &slabs, 0.0f, end, &t_near));
             global const uint* children = nodes[current].children;
             while (lanes != 0) {
                 const uint lane = 31u - clz(lanes);

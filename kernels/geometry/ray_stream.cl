@@ -27,6 +27,7 @@
 typedef struct {
     SlabRay slabs;
     ShearedRay sheared;
+    RayStart start;
     Hit hit;       // the closest so far; any hit: `primitive` >= 0 if there is one
     uint key;      // Cover's (HAS_ALPHA)
     uint item;     // the caller's name for the ray
@@ -75,12 +76,14 @@ INLINE void stream_add(
     const float dy,
     const float dz,
     const float t_max,
+    const RayStart start,
     const uint key) {
     --stream->idles;
     const int i = stream->idle[stream->idles];
     StreamRay* ray = &stream->rays[i];
     ray->slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     ray->sheared = shear_ray(ox, oy, oz, dx, dy, dz);
+    if (HAS_MEDIA) ray->start = start;
     ray->hit.t = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
     ray->hit.u = 0.0f;
     ray->hit.v = 0.0f;
@@ -121,7 +124,8 @@ INLINE int next_waiting(const StreamRay* ray) {
 // Enters the nearest child, of any hit the last one; the others wait in their order in the node.
 INLINE void step_node(StreamRay* ray, global const BvhNode* node, const int any) {
     float8 t_near;
-    const int8 crossed = intersect_node(node, &ray->slabs, ray->hit.t, &t_near);
+    const int8 crossed =
+        intersect_node(node, &ray->slabs, HAS_MEDIA ? ray->start.t : 0.0f, ray->hit.t, &t_near);
     const uint lanes = lane_mask(crossed);
     uint lane = 31u - clz(lanes | 1u);
     if (!any) {
@@ -151,7 +155,7 @@ INLINE void step_leaf(
         ray->hit.primitive = any_in_block(block, &ray->sheared, &cover, ray->hit.t) ? 0 : -1;
         ray->top = ray->hit.primitive < 0 ? ray->top - 1 : 7;
     } else {
-        closest_in_block(block, &ray->sheared, &cover, &ray->hit);
+        closest_in_block(block, &ray->sheared, ray->start, &cover, &ray->hit);
         ray->top = next_waiting(ray);
     }
     ray->current = ray->waiting[ray->top];

@@ -15,7 +15,8 @@
 #define PAIR_DIRECTION 1u    // direction of the next ray
 #define PAIR_CHOICE 2u       // which light, which lobe
 #define PAIR_ROULETTE 3u     // survival (first of the pair)
-#define SCATTERING_PAIRS 4u
+#define PAIR_DISTANCE 4u     // distance in a medium, colour channel it is drawn for
+#define SCATTERING_PAIRS (4u + HAS_MEDIA)
 
 // Beyond these scatterings points are independent: stratification over so many dimensions buys
 // nothing.

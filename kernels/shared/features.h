@@ -1,7 +1,7 @@
 // What the scene and the method need. The program that is built for a render defines each of these
-// as 0 or 1 ahead of this file; kernels test them with a plain `if`, so both branches are always
-// parsed and the dead one is removed. Here every feature is on: the full set, as the linter builds
-// it.
+// as 0 or 1 (DISTANCES as what it names) ahead of this file; kernels test them with a plain `if`,
+// so both branches are always parsed and the dead one is removed. Here every feature is on: the
+// full set, as the linter builds it.
 #ifndef WAVEPATH_FEATURES_H
 #define WAVEPATH_FEATURES_H
 
@@ -49,6 +49,29 @@
 #endif
 #ifndef HAS_ENVIRONMENT_MAP
 #define HAS_ENVIRONMENT_MAP 1
+#endif
+#ifndef HAS_MEDIA
+#define HAS_MEDIA 1  // some material encloses a medium
+#endif
+#ifndef HAS_DIELECTRICS
+#define HAS_DIELECTRICS 1  // some boundary refracts
+#endif
+#ifndef ROUGH_DIELECTRICS
+#define ROUGH_DIELECTRICS 1  // some boundary refracts by microfacets
+#endif
+#ifndef MEDIA_SCATTER
+#define MEDIA_SCATTER 1  // some medium scatters; 0: they absorb and emit alone
+#endif
+#define DISTANCE_EXPONENTIAL 0
+#define DISTANCE_UNIFORM 1
+#define DISTANCE_TRUNCATED 2
+#define DISTANCE_EQUIANGULAR 3
+#define DISTANCE_MIS 4
+#ifndef DISTANCES
+#define DISTANCES DISTANCE_MIS  // how distances in media are drawn: one of the above
+#endif
+#ifndef PHASE_DIRECTIONS
+#define PHASE_DIRECTIONS 1  // directions in media follow the phase function; 0: uniform
 #endif
 #ifndef HAS_SPLITS
 #define HAS_SPLITS 1  // --splits: branch vertices are kept and resumed

@@ -28,15 +28,20 @@ typedef struct {
     shared_uint roulette;         // 0: none, 1: by throughput, 2: constant
     shared_float survival;        // [1] of constant roulette
     shared_uint splits;           // S directions from a surface point
-    shared_uint split_depth;      // only the first vertices branch
+    shared_uint split_depth;      // only the first vertices branch, and the segments before them
     shared_uint light_count;
     // environment
     shared_uint environment_width;  // texels; 0: constant
     shared_uint environment_height;
     shared_float environment_r, environment_g, environment_b;  // radiance, or the scale of the map
     shared_float environment_pmf;                              // of the light choice
+    // media
+    shared_uint camera_media;     // MEDIUM_STACK at the camera
+    shared_uint stops;            // N stops on a segment that branches
+    shared_uint stop_directions;  // M directions from a stop
+    shared_uint padding;
 } RenderParams;
-SHARED_SIZE(RenderParams, 144);
+SHARED_SIZE(RenderParams, 160);
 
 // One row of the sample plan: which samples of every pixel a pass takes, counted from the pixel's
 // first.

@@ -27,6 +27,10 @@ enum HitPlane {
 #define HIT_MISS (-1)   // it left the scene
 #define HIT_ENDED (-2)  // the path is over: absorbed, or cut
 #define HIT_IDLE (-3)   // the slot has no work left
+// with HAS_MEDIA:
+#define HIT_MEDIUM (-4)  // it stopped in a medium before the surface; HIT_T and SURFACE_X say where
+#define HIT_BOUNDARY (-5)    // it passes an index-matched boundary and goes on as the same ray
+#define HIT_DIELECTRIC (-6)  // it leaves a dielectric boundary as a new ray
 
 // surfaces: what was hit, where HIT_PRIMITIVE >= 0
 enum SurfacePlane {
@@ -56,6 +60,19 @@ enum SurfacePlane {
 };
 #define SURFACE_PLANES_FLAT SURFACE_N_X
 #define SURFACE_PLANES_SHADED SURFACE_METALLIC
+
+// media: where a path stands among the media (only with HAS_MEDIA). A ray that passes an
+// index-matched boundary keeps its origin: its next segment begins at MEDIUM_T, behind the triangle
+// MEDIUM_PRIMITIVE, and no offset has to be right.
+enum MediumPlane {
+    MEDIUM_STACK,      // (uint bits) media around the segment, 8 bits each: rows of the table of
+                       // media + 1, the innermost lowest; 0: vacuum (media/medium_stack.cl)
+    MEDIUM_T,          // where the segment begins [distance along the ray, normalised]
+    MEDIUM_PRIMITIVE,  // (int bits) the boundary it begins at; NO_BOUNDARY at the ray's origin
+    MEDIUM_PASSES,     // (uint bits) boundaries passed since the ray's origin
+    MEDIUM_PLANES
+};
+#define NO_BOUNDARY (-1)
 
 // throughputs: what the path carries
 enum ThroughputPlane {
@@ -102,8 +119,10 @@ enum ShadowPlane {
     SHADOW_R,      // radiance it brings if nothing is in the way
     SHADOW_G,
     SHADOW_B,
+    SHADOW_MEDIA,  // (uint bits) MEDIUM_STACK at its origin (only with HAS_MEDIA)
     SHADOW_PLANES
 };
+#define SHADOW_PLANES_CLEAR SHADOW_MEDIA
 
 // ids (uint): which sample this is
 enum IdPlane {
@@ -118,28 +137,40 @@ enum IdPlane {
     ID_NONFINITE,   // of the unit: count << 16 | first such sample + 1
     ID_BRANCH,  // which child of its branch vertices this is (only with --splits, as are the next)
     ID_STACK,   // branch vertices on the path's stack
+    ID_SHARES,  // (float bits) among how many its branch vertices divided what it carries
     ID_PLANES
 };
 #define ID_PLANES_UNSPLIT ID_BRANCH
 
-// branches: a stack of branch vertices a slot, BRANCH_PLANES planes a level; level = scatterings
-// before the vertex (only with --splits)
+// branches: a stack of branch vertices a slot, BRANCH_PLANES planes a level; without media level =
+// scatterings before the vertex (only with --splits). With media two levels belong together: a
+// segment that branches into its stops and the surface behind, and the vertex at its end, of which
+// either may be missing. The planes from BRANCH_SCATTERING on exist only with media.
 enum BranchPlane {
     BRANCH_LEFT,       // (uint bits) children still to run
     BRANCH_ID,         // (uint bits) ID_BRANCH at the vertex
-    BRANCH_PRIMITIVE,  // what was hit
+    BRANCH_SHARES,     // (float bits) ID_SHARES of a child
+    BRANCH_PRIMITIVE,  // what was hit; HIT_MEDIUM: a stop
     BRANCH_U,
     BRANCH_V,
     BRANCH_DIRECTION_X,  // of the ray that hit it
     BRANCH_DIRECTION_Y,
     BRANCH_DIRECTION_Z,
-    BRANCH_R,  // throughput of a child, before its direction
+    BRANCH_R,  // throughput of a child, before its direction or distance
     BRANCH_G,
     BRANCH_B,
-    BRANCH_PLANES
+    BRANCH_SCATTERING,  // (uint bits) scatterings before the vertex
+    BRANCH_T,           // HIT_T to resume with: T_RESUMED, or of a segment its end, negative
+    BRANCH_ORIGIN_X,    // of the ray along a segment; the place of a stop
+    BRANCH_ORIGIN_Y,
+    BRANCH_ORIGIN_Z,
+    BRANCH_PDF,    // plane THROUGHPUT_PDF
+    BRANCH_MEDIA,  // and the MEDIUM_PLANES planes of media
+    BRANCH_PLANES = BRANCH_MEDIA + MEDIUM_PLANES
 };
+#define BRANCH_PLANES_SURFACE BRANCH_SCATTERING
 // In HIT_T: the hit is that of a branch vertex, to be left in another direction; it has been shaded
-// before.
-#define T_RESUMED (-1.0f)
+// before. Other distances below 0: a segment that was walked before, to be stopped on.
+#define T_RESUMED (-INFINITY)
 
 #endif

@@ -20,10 +20,33 @@ typedef struct {
     shared_float emission_b;
     shared_float alpha;         // [1] roughness^2
     shared_uint double_sided;   // emits from both faces
-    shared_float transmission;  // [1] share of what enters that goes straight through
-    shared_uint padding[2];
+    shared_uint boundary;       // BOUNDARY_*
+    shared_uint medium;         // row of the table of media + 1 of what it encloses; 0: nothing
+    shared_float transmission;  // [1] share of what enters that goes straight through (thin walls)
 } DeviceMaterial;
 SHARED_SIZE(DeviceMaterial, 64);
+
+// What a material does to light that meets it.
+#define BOUNDARY_OPAQUE 0u
+#define BOUNDARY_INDEX_MATCHED 1u  // passes straight, tinted by the base colour
+#define BOUNDARY_DIELECTRIC 2u     // reflects and refracts by Fresnel's equations
+
+// A homogeneous medium; lengths are those of the normalised scene.
+typedef struct {
+    shared_float sigma_t_r;   // extinction per length
+    shared_float sigma_s_r;   // scattering per length
+    shared_float emission_r;  // radiance emitted per length
+    shared_float anisotropy;  // [1] g: mean cosine of the phase function
+    shared_float sigma_t_g;
+    shared_float sigma_s_g;
+    shared_float emission_g;
+    shared_float ior;  // [1] refractive index; 1 within an index-matched boundary
+    shared_float sigma_t_b;
+    shared_float sigma_s_b;
+    shared_float emission_b;
+    shared_float padding;
+} DeviceMedium;
+SHARED_SIZE(DeviceMedium, 48);
 
 // A triangle is TRIANGLE_FLOATS floats in scene order: these, then what the scene's vertices have
 // (geometry/attributes.cl).

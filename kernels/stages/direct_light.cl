@@ -1,7 +1,8 @@
-// Chooses a point on a light for every path at a surface and leaves the connection to
-// `occlusion` (notes 5, directRadianceEstimator, with the f_r that the notes leave out).
+// Chooses a point on a light for every path at a surface, or at a stop in a medium, and leaves the
+// connection to `occlusion` or `connect_through_media` (notes 5, directRadianceEstimator, with the
+// f_r that the notes leave out; notes 6).
 //
-// reads: rays, hits, surfaces, throughputs, ids, scene, lights, textures
+// reads: rays, hits, surfaces, throughputs, ids, media, scene, lights, textures
 //
 // writes: shadows
 //
@@ -12,6 +13,9 @@
 #include "lights/area_light.cl"
 #include "lights/environment.cl"
 #include "lights/punctual.cl"
+#include "materials/dielectric.cl"
+#include "media/medium_stack.cl"
+#include "media/phase.cl"
 #include "sampling/dimensions.cl"
 
 kernel void direct_light(
@@ -21,12 +25,14 @@ kernel void direct_light(
     global const DeviceMaterial* restrict materials,
     global const DeviceLight* restrict lights,
     global const EnvironmentEntry* restrict environment,
+    global const DeviceMedium* restrict media,
     TEXTURE_PARAMETERS,
     global const float* restrict rays,
     global const float* restrict hits,
     global const float* restrict surfaces,
     global const float* restrict throughputs,
     global const uint* restrict ids,
+    global const float* restrict path_media,
     global float* restrict shadows) {
     const RenderParams params = *settings;
     const size_t stride = params.stride;
@@ -34,8 +40,31 @@ kernel void direct_light(
     if (slot >= slots) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
     PLANE(shadows, SHADOW_T_MAX)[slot] = 0.0f;
-    if (primitive < 0) return;
+    const int in_medium = HAS_MEDIA && MEDIA_SCATTER && primitive == HIT_MEDIUM;
+    if (primitive < 0 && !in_medium) return;
     if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
+    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+    const uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
+    // a dielectric boundary shows lights on either side if it is rough, and none if it is smooth
+    int refracts = 0;
+    uint crossed = stack;
+    float alpha = 1.0f;
+    float ior_i = 1.0f;
+    float ior_t = 1.0f;
+    if (HAS_DIELECTRICS) {
+        global const DeviceMaterial* material =
+            materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
+        refracts = !in_medium & (material->boundary == BOUNDARY_DIELECTRIC);
+        if (refracts) {
+            crossed = cross_boundary(
+                stack, material->medium, triangles + TRIANGLE_FLOATS * primitive, direction);
+            alpha = material->alpha;
+            ior_i = refractive_index(media, stack);
+            ior_t = refractive_index(media, crossed);
+            if (!ROUGH_DIELECTRICS) return;
+            if (!dielectric_is_rough(alpha, ior_i, ior_t)) return;
+        }
+    }
     const Vec3 p = load3(PLANE(surfaces, SURFACE_X), stride, slot);
     const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
     const Vec3 n = load_shading_normal(surfaces, stride, slot);
@@ -88,26 +117,43 @@ kernel void direct_light(
     // what it brings: throughput * f_r cos * L_e / pdf_w, weighted against the bsdf's chance to
     // find it
     const Frame frame = frame_around(n);
-    const Vec3 wo =
-        to_local(frame, scale3(load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), -1.0f));
-    const Scattered scattered = scatter_towards(surface, frame, ng, wo, s.wi);
+    const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
+    const Vec3 wi = to_local(frame, s.wi);
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
-    value = mul3(value, scattered.value);
+    const Scattered scattered = scatter_towards(surface, frame, ng, wo, s.wi);
+    Vec3 f = scattered.value;
+    float pdf_w = scattered.pdf_w;
+    // of the surface, that the connection leaves on
+    float side = HAS_TRANSMISSION && dot3(ng, s.wi) < 0.0f ? -1.0f : 1.0f;
+    if (HAS_MEDIA && MEDIA_SCATTER) {
+        const float g = media[(int)max(innermost_medium(stack), 1u) - 1].anisotropy;
+        const float phase = phase_eval(g, direction, s.wi);
+        f = select3(in_medium, vec3(phase, phase, phase), f);
+        pdf_w = in_medium ? phase_pdf_w(phase) : pdf_w;
+    }
+    if (ROUGH_DIELECTRICS) {
+        const DielectricValue v = dielectric_eval(wo, wi, alpha, ior_i, ior_t);
+        const Vec3 tint = select3(wi.z > 0.0f, vec3(1.0f, 1.0f, 1.0f), surface.base);
+        f = select3(refracts, scale3(tint, v.value), f);
+        pdf_w = refracts ? v.pdf_w : pdf_w;
+        side = refracts ? (wi.z < 0.0f ? -1.0f : 1.0f) : side;
+    }
+    value = mul3(value, f);
     if (WEIGH_BOTH) {
         // a sky below the horizon has no density and no radiance either
-        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), scattered.pdf_w);
+        const float weight = power_heuristic(max(s.pdf_w, FLT_MIN), pdf_w);
         value = scale3(value, s.pdf_w == PDF_CERTAIN ? 1.0f : weight);
     }
     // NaN passes every test, to be found and counted.
     // A product of steps: a chain of && becomes a vector of its own, and the kernel would stay
     // scalar on PoCL.
     float t_max = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    const float side = HAS_TRANSMISSION && dot3(ng, s.wi) < 0.0f ? -1.0f : 1.0f;
-    t_max *= side * dot3(ng, s.wi) <= 0.0f ? 0.0f : 1.0f;
+    t_max *= (!in_medium & (side * dot3(ng, s.wi) <= 0.0f)) ? 0.0f : 1.0f;
     t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
-    const Vec3 origin = leave(p, scale3(ng, side));
+    const Vec3 origin = select3(in_medium, p, leave(p, scale3(ng, side)));
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, sub3(s.p, origin));
     PLANE(shadows, SHADOW_T_MAX)[slot] = t_max;
     store3(PLANE(shadows, SHADOW_R), stride, slot, value);
+    if (HAS_MEDIA) PLANE(shadows, SHADOW_MEDIA)[slot] = as_float(side < 0.0f ? crossed : stack);
 }

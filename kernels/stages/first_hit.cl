@@ -23,7 +23,8 @@ kernel void first_hit(
     if (PLANE(ids, ID_SCATTERING)[slot] != 0) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
     if (primitive == HIT_IDLE) return;
-    if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
+    if (HAS_MEDIA && primitive == HIT_BOUNDARY) return;         // what lies behind it is seen
+    if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) return;  // a child after the first
     const int hit = primitive >= 0;
     const float kept =
         PLANE(ids, ID_SAMPLE)[slot] == 0 ? 0.0f : 1.0f;  // a unit's first sample starts its sums

@@ -3,10 +3,11 @@
 //
 // reads: plan
 //
-// writes: hits (a slot without work), ids, rays, throughputs, radiances
+// writes: hits (a slot without work), ids, rays, throughputs, radiances, media
 //
 // One work-item a slot.
 
+#include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
@@ -20,7 +21,8 @@ kernel void generate_rays(
     global uint* restrict ids,
     global float* restrict rays,
     global float* restrict throughputs,
-    global float* restrict radiances) {
+    global float* restrict radiances,
+    global float* restrict path_media) {
     const RenderParams params = *settings;
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
@@ -65,6 +67,7 @@ kernel void generate_rays(
     if (HAS_SPLITS) {
         PLANE(ids, ID_BRANCH)[slot] = 0;
         PLANE(ids, ID_STACK)[slot] = 0;
+        PLANE(ids, ID_SHARES)[slot] = as_uint(1.0f);
         PLANE(hits, HIT_T)[slot] = 0.0f;
     }
 
@@ -91,4 +94,8 @@ kernel void generate_rays(
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, vec3(1.0f, 1.0f, 1.0f));
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = PDF_CERTAIN;
     store3(PLANE(radiances, RADIANCE_R), stride, slot, vec3(0.0f, 0.0f, 0.0f));
+    if (HAS_MEDIA) {
+        PLANE(path_media, MEDIUM_STACK)[slot] = as_float(params.camera_media);
+        start_at_origin(path_media, stride, slot);
+    }
 }

@@ -1,6 +1,6 @@
 // Finds the closest triangle along every ray.
 //
-// reads: rays, ids, bvh, triangles and textures (holes)
+// reads: rays, media, ids, bvh, triangles and textures (holes)
 //
 // writes: hits
 //
@@ -20,6 +20,13 @@ INLINE void store_hit(global float* hits, const size_t stride, const size_t slot
     PLANE(hits, HIT_V)[slot] = hit->v;
 }
 
+// Behind the boundary that the ray passed last.
+INLINE RayStart load_start(global const float* path_media, const size_t stride, const size_t slot) {
+    if (!HAS_MEDIA) return at_origin();
+    return ray_start(
+        PLANE(path_media, MEDIUM_T)[slot], as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]));
+}
+
 kernel void intersect(
     constant const RenderParams* restrict params,
     const uint slots,
@@ -28,6 +35,7 @@ kernel void intersect(
     global const float* restrict triangles,
     TEXTURE_PARAMETERS,
     global const float* restrict rays,
+    global const float* restrict path_media,
     global const uint* restrict ids,
     global float* restrict hits) {
     const size_t stride = params->stride;
@@ -35,14 +43,14 @@ kernel void intersect(
     if (slot >= slots) return;
     if (RAYS_PER_ITEM == 1) {
         if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return;
-        if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
+        if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) return;
         const Cover cover =
             ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
         const Hit hit = closest_hit(
             nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
             PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
             PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
-            &cover);
+            load_start(path_media, stride, slot), &cover);
         store_hit(hits, stride, slot, &hit);
         return;
     }
@@ -53,12 +61,12 @@ kernel void intersect(
     do {
         for (; slot < end && stream_has_room(&stream); ++slot) {
             if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) continue;
-            if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) continue;
+            if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) continue;
             stream_add(
                 &stream, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
                 PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
                 PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
-                HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
+                load_start(path_media, stride, slot), HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
         }
         stream_step(&stream, nodes, blocks, &cover, 0);
         for (int k = 0; k < stream.ended; ++k) {

@@ -2,10 +2,11 @@
 //
 // reads: holes, movers
 //
-// writes: rays, hits, throughputs, radiances, ids, branches
+// writes: rays, hits, throughputs, radiances, ids, media, branches
 //
 // One work-item a path; no slot is read and written in one launch.
 
+#include "sampling/branch.cl"
 #include "sampling/vector.cl"
 #include "shared/features.h"
 #include "shared/params.h"
@@ -20,6 +21,7 @@ kernel void move_paths(
     global float* restrict throughputs,
     global float* restrict radiances,
     global uint* restrict ids,
+    global float* restrict path_media,
     global float* restrict branches) {
     const RenderParams params = *settings;
     const size_t stride = params.stride;
@@ -34,7 +36,10 @@ kernel void move_paths(
     for (int k = 0; k < RADIANCE_PLANES; ++k) PLANE(radiances, k)[to] = PLANE(radiances, k)[from];
     const int id_planes = HAS_SPLITS ? ID_PLANES : ID_PLANES_UNSPLIT;
     for (int k = 0; k < id_planes; ++k) PLANE(ids, k)[to] = PLANE(ids, k)[from];
-    const int branch_planes = HAS_SPLITS ? BRANCH_PLANES * (int)params.split_depth : 0;
+    const int medium_planes = HAS_MEDIA ? MEDIUM_PLANES : 0;
+    for (int k = 0; k < medium_planes; ++k) PLANE(path_media, k)[to] = PLANE(path_media, k)[from];
+    const int branch_planes =
+        HAS_SPLITS ? (int)(BRANCH_PLANES_USED * BRANCH_LEVELS * params.split_depth) : 0;
     for (int k = 0; k < branch_planes; ++k) PLANE(branches, k)[to] = PLANE(branches, k)[from];
     PLANE(hits, HIT_PRIMITIVE)[from] = as_float(HIT_IDLE);
 }

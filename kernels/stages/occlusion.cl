@@ -60,7 +60,7 @@ kernel void occlusion(
                 &stream, slot, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
                 PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
                 PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
-                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max,
+                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin(),
                 HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
         }
         stream_step(&stream, nodes, blocks, &cover, 1);

@@ -38,23 +38,23 @@ kernel void roulette_compact(
 
     // q: constant, or what the path still carries against ROULETTE_BELOW; never above 1
     float survival = 1.0f;
-    // a child carries the S-th part of its parent, which says nothing about its worth
-    float shares = 1.0f;
-    if (HAS_SPLITS)
-        for (uint k = 0; k < min(scattering, params.split_depth); ++k)
-            shares *= (float)params.splits;
+    // a child carries a part of its parent, which says nothing about its worth
+    const float shares = HAS_SPLITS ? as_float(PLANE(ids, ID_SHARES)[slot]) : 1.0f;
     survival = params.roulette == 1
                    ? min(1.0f, max_component3(throughput) * shares * (1.0f / ROULETTE_BELOW))
                    : survival;
     survival = params.roulette == 2 ? params.survival : survival;
+    // once a scattering, not once a boundary
+    if (HAS_MEDIA) survival = primitive == HIT_BOUNDARY ? 1.0f : survival;
     const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
     const uint dimension = PAIR_FIRST + scattering * SCATTERING_PAIRS + PAIR_ROULETTE;
     const uint seed =
         hash_pair(PLANE(ids, ID_SEED)[slot], HAS_SPLITS ? hash_pair(dimension, branch) : dimension);
     const float u = unit_float(hash_pair(seed, PLANE(ids, ID_INDEX)[slot]));
     // a NaN throughput survives, to be found and counted at the end of the path
-    const int dies = primitive >= 0 && u >= survival;
-    const int ends = primitive < 0 || dies;
+    const int over = HAS_MEDIA ? (primitive == HIT_MISS) | (primitive == HIT_ENDED) : primitive < 0;
+    const int dies = !over && u >= survival;
+    const int ends = over || dies;
     store3(
         PLANE(throughputs, THROUGHPUT_R), stride, slot,
         scale3(throughput, ends ? 1.0f : 1.0f / survival));

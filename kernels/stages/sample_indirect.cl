@@ -3,11 +3,13 @@
 //
 // reads: surfaces, materials
 //
-// writes: rays, hits (the end), throughputs, ids, branches
+// writes: rays, hits (the end), throughputs, ids, media, branches
 //
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "media/medium_stack.cl"
+#include "sampling/branch.cl"
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
 
@@ -20,6 +22,7 @@ kernel void sample_indirect(
     global float* restrict hits,
     global float* restrict throughputs,
     global uint* restrict ids,
+    global float* restrict path_media,
     global float* restrict branches) {
     const RenderParams params = *settings;
     const size_t stride = params.stride;
@@ -34,34 +37,15 @@ kernel void sample_indirect(
     const uint seed = PLANE(ids, ID_SEED)[slot];
     const uint index = PLANE(ids, ID_INDEX)[slot];
     const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
-    Vec3 carried = load3(PLANE(throughputs, THROUGHPUT_R), stride, slot);
-    uint branch = 0;
-    if (HAS_SPLITS && scattering < params.split_depth) {
-        global float* vertex = PLANE(branches, scattering * BRANCH_PLANES);
-        uint left = as_uint(PLANE(vertex, BRANCH_LEFT)[slot]);
-        const uint parent = PLANE(ids, ID_BRANCH)[slot];
-        if (PLANE(hits, HIT_T)[slot] != T_RESUMED) {
-            left = params.splits;
-            carried = scale3(carried, 1.0f / (float)params.splits);
-            PLANE(vertex, BRANCH_ID)[slot] = as_float(parent);
-            PLANE(vertex, BRANCH_PRIMITIVE)[slot] = as_float(primitive);
-            PLANE(vertex, BRANCH_U)[slot] = PLANE(hits, HIT_U)[slot];
-            PLANE(vertex, BRANCH_V)[slot] = PLANE(hits, HIT_V)[slot];
-            store3(PLANE(vertex, BRANCH_DIRECTION_X), stride, slot, direction);
-            store3(PLANE(vertex, BRANCH_R), stride, slot, carried);
-            PLANE(ids, ID_STACK)[slot] = scattering + 1;
-        }
-        PLANE(vertex, BRANCH_LEFT)[slot] = as_float(left - 1);
-        branch = parent * params.splits + left;  // its own for every child: 1 .. S of parent 0
-        PLANE(ids, ID_BRANCH)[slot] = branch;
-        PLANE(hits, HIT_T)[slot] = 0.0f;
-    } else if (HAS_SPLITS) {
-        branch = PLANE(ids, ID_BRANCH)[slot];
-    }
-    const Sample2 u = unit_pair(scattering_pair(seed, index, branch, scattering, PAIR_DIRECTION));
+    const Vec3 position = load3(PLANE(surfaces, SURFACE_X), stride, slot);
+    const Child child = next_child(
+        branches, stride, slot, params.split_depth, params.splits, position, rays, hits,
+        throughputs, path_media, ids);
+    const Sample2 u =
+        unit_pair(scattering_pair(seed, index, child.branch, scattering, PAIR_DIRECTION));
     float choice = 0.0f;
     if (HAS_SPECULAR)
-        choice = unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
+        choice = unit_float(scattering_pair(seed, index, child.branch, scattering, PAIR_CHOICE).v);
 
     const Frame frame = frame_around(n);
     const Surface surface = load_surface(materials, surfaces, stride, slot);
@@ -78,7 +62,7 @@ kernel void sample_indirect(
     // a direction that is no number makes the throughput none, which accumulate finds
     const float spoilt = 0.0f * (wi.x + wi.y + wi.z);
     const Vec3 weight = vec3(s.weight.x + spoilt, s.weight.y + spoilt, s.weight.z + spoilt);
-    const Vec3 throughput = mul3(carried, weight);
+    const Vec3 throughput = mul3(child.carried, weight);
     // A direction along the face would leak light through it: it counts as absorbed.
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= side * s.wi.z <= 0.0f ? 0.0f : 1.0f;
@@ -86,11 +70,10 @@ kernel void sample_indirect(
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;
     const int continues = goes_on > 0.0f;
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? primitive : HIT_ENDED);
-    store3(
-        PLANE(rays, RAY_ORIGIN_X), stride, slot,
-        leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), scale3(ng, side)));
+    store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, leave(position, scale3(ng, side)));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = pdf_w;
     PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
+    if (HAS_MEDIA) start_at_origin(path_media, stride, slot);
 }

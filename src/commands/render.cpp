@@ -44,7 +44,7 @@ void check_outputs(const Outputs& outputs) {
 
 std::map<std::string, std::string> metadata(
     const Device& device, const RenderJob& job, const RenderResult& result) {
-    const std::string bias = job.settings.termination.bias();
+    const std::string bias = job.settings.bias();
     std::map<std::string, std::string> m{
         {"wavepath.scene", job.scene.name},
         {"wavepath.camera", job.settings.camera.name},
@@ -56,12 +56,9 @@ std::map<std::string, std::string> metadata(
         {"wavepath.variance_batches", std::to_string(result.batches)},
         {"wavepath.device", device.info.platform + ", " + device.info.name},
         {"wavepath.driver", device.info.driver},
-        {"wavepath.build", WAVEPATH_VERSION},
+        {"wavepath.build", build_text()},
+        {"wavepath.settings", settings_report(job).dump()},
     };
-    if (job.settings.target_error > 0)
-        m["wavepath.bias"] =
-            "stopped by --target-error: a stopping rule that reads the samples is slightly biased" +
-            (bias.empty() ? "" : "; " + bias);
     for (const std::string& warning : result.warnings) m["wavepath.warning"] += warning + "\n";
     return m;
 }
@@ -78,11 +75,14 @@ void run(const RenderOptions& options, const Outputs& outputs) {
 
     const InterruptGuard interrupt;
     Progress progress(job.settings, outputs.quiet);
-    RenderResult result = render(device, job.scene, job.settings, [&](const RenderProgress& state) {
-        progress.show(state);
-        return !interrupt.requested();
-    });
+    RenderResult result = render(
+        device, job.scene, job.settings, [&](const RenderProgress& state) { progress.show(state); },
+        [&] { return interrupt.requested(); });
     progress.finish();
+    if (result.samples == 0) {
+        spdlog::warn("interrupted before every pixel had a sample: nothing is written");
+        throw Interrupted();
+    }
     for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
     if (result.film.nonfinite.samples > 0)
         spdlog::warn(

@@ -86,11 +86,7 @@ void parse_budget(const RenderOptions& options, RenderSettings& settings) {
     const int budgets = int{options.spp.has_value()} + int{options.time.has_value()} +
                         int{options.target_error.has_value()};
     if (budgets > 1) throw Error("--spp, --time and --target-error: give one of them");
-    if (options.spp) {
-        if (*options.spp == 0 || *options.spp > 0xFFFFFFFFU)
-            throw Error("--spp {}: use 1 to 4294967295", *options.spp);
-        settings.samples = *options.spp;
-    }
+    if (options.spp) settings.samples = *options.spp;
     if (options.time) {
         if (!(*options.time > 0) || !std::isfinite(*options.time))
             throw Error("--time {}: use seconds above 0", *options.time);
@@ -135,6 +131,10 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
            "--size", o.size, "Picture size in pixels; default 512 high, as wide as the camera says")
         ->type_name("WxH");
     app.add_option(
+           "--scene", o.scene_of_file,
+           "A scene of the file, by name or index; default the file's default")
+        ->type_name("NAME|INDEX");
+    app.add_option(
            "--camera", o.camera, "A camera of the scene, by name or index; default its first")
         ->type_name("NAME|INDEX");
     app.add_option("--look-at", o.look_at, "A camera of your own: eye and target [m]")
@@ -142,13 +142,17 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option(
            "--fov", o.fov, "Vertical field of view; default the camera's, 45 with --look-at")
         ->type_name("DEG");
-    app.add_option("--spp", o.spp, "Samples a pixel; default 64")->type_name("N");
+    app.add_option("--spp", o.spp, "Samples a pixel; default 64")
+        ->check(CLI::Range(int64_t{1}, int64_t{0xFFFFFFFF}))
+        ->type_name("N");
     app.add_option("--time", o.time, "Sample for this long instead [s]")->type_name("SECONDS");
     app.add_option(
            "--target-error", o.target_error,
            "Sample until the mean relative standard error falls below this instead")
         ->type_name("REL");
-    app.add_option("--seed", o.seed, "Of the random numbers; default 1")->type_name("N");
+    app.add_option("--seed", o.seed, "Of the random numbers; default 1")
+        ->check(CLI::Range(int64_t{0}, int64_t{0xFFFFFFFF}))
+        ->type_name("N");
     app.add_option(
            "--device", o.device,
            "cpu, gpu, P.D as `wavepath devices` numbers them, or part of a name; default PoCL")
@@ -167,10 +171,21 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option("--sampler", o.sampler, "Kind of points; default sobol")
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent");
-    app.add_option("--splits", o.splits, "1,1,S: S directions from a surface point")
-        ->type_name("N,M,S");
-    app.add_option("--split-depth", o.split_depth, "Only the first K vertices split; default 1")
-        ->check(CLI::Range(1, 8))
+    app.add_option("--distance", o.distance, "How stops in media are chosen; default exponential")
+        ->check(CLI::IsMember({"uniform", "exponential", "truncated", "equiangular", "mis"}))
+        ->type_name("NAME");
+    app.add_option("--direction", o.direction, "Directions in media; default phase")
+        ->check(CLI::IsMember({"phase", "uniform"}))
+        ->type_name("phase|uniform");
+    app.add_option(
+           "--splits", o.splits,
+           "N stops on a segment in a medium, M directions from each, S from a surface point; "
+           "default 1,1,1")
+        ->type_name("N,M[,S]");
+    app.add_option(
+           "--split-depth", o.split_depth,
+           "Only the first K vertices and the segments before them branch; default 1")
+        ->check(CLI::Range(0, 8))
         ->type_name("K");
     app.add_option("--env", o.environment, "Environment map, latitude-longitude .hdr or .exr")
         ->type_name("MAP");
@@ -194,6 +209,8 @@ RenderJob prepare_job(const RenderOptions& options) {
     if (!options.light_choice.empty())
         settings.method.light_choice =
             options.light_choice == "area" ? LightChoice::area : LightChoice::power;
+    settings.method.distances = distances_named(options.distance);
+    settings.method.phase_directions = options.direction == "phase";
     settings.termination = parse_termination(options.termination);
     settings.splits = parse_splits(options.splits);
     settings.split_depth = options.split_depth;
@@ -203,7 +220,7 @@ RenderJob prepare_job(const RenderOptions& options) {
     parse_budget(options, settings);
 
     const auto start = std::chrono::steady_clock::now();
-    job.scene = load_gltf(options.scene, options.max_texels << 20U);
+    job.scene = load_gltf(options.scene, options.scene_of_file, options.max_texels << 20U);
     job.scene.environment = parse_environment(options);
     settings.camera = parse_camera(options, job.scene);
     parse_size(options.size, settings.camera, settings);

@@ -17,7 +17,8 @@ namespace wavepath {
 
 struct RenderOptions {
     std::filesystem::path scene;
-    std::string size;  // "WxH"; empty: 512 high, the camera's aspect ratio
+    std::string size;           // "WxH"; empty: 512 high, the camera's aspect ratio
+    std::string scene_of_file;  // name or index; empty: the file's default
     std::string camera;
     std::string look_at;
     std::optional<double> fov;  // [degrees] vertical
@@ -30,6 +31,8 @@ struct RenderOptions {
     std::string termination = "roulette";
     std::string light_choice;  // empty: the method's own
     std::string sampler = "sobol";
+    std::string distance = "exponential";
+    std::string direction = "phase";
     std::string splits = "1,1,1";
     uint32_t split_depth = 1;
     std::filesystem::path environment;

@@ -19,10 +19,15 @@ namespace wavepath {
 
 namespace {
 
+std::optional<std::string> kernel_folder() {
+    const char* folder = std::getenv("WAVEPATH_KERNELS");
+    if (folder == nullptr || *folder == '\0') return std::nullopt;
+    return folder;
+}
+
 // Where a kernel file is said to be: on disk if WAVEPATH_KERNELS is set, and in messages and #line.
 std::string kernel_path(const std::string& name) {
-    const char* folder = std::getenv("WAVEPATH_KERNELS");
-    return (folder != nullptr ? std::string(folder) : "kernels") + "/" + name;
+    return kernel_folder().value_or("kernels") + "/" + name;
 }
 
 std::optional<std::string> file_in_folder(const std::string& folder, const std::string& name) {
@@ -49,8 +54,8 @@ std::optional<std::string> embedded_file(const std::string& name) {
 }
 
 std::optional<std::string> find_kernel_file(const std::string& name) {
-    const char* folder = std::getenv("WAVEPATH_KERNELS");
-    return folder != nullptr ? file_in_folder(folder, name) : embedded_file(name);
+    const auto folder = kernel_folder();
+    return folder ? file_in_folder(*folder, name) : embedded_file(name);
 }
 
 std::string quoted(const std::string& path) {
@@ -226,7 +231,11 @@ std::vector<unsigned char> binary_of(const cl::Program& program) {
 
 std::string kernel_file(const std::string& name) {
     const auto text = find_kernel_file(name);
-    if (!text) throw Error("{}: there is no such kernel file", kernel_path(name));
+    if (!text)
+        throw Error(
+            "{}: there is no such kernel file; name a folder with all of them, or unset "
+            "WAVEPATH_KERNELS",
+            kernel_path(name));
     return *text;
 }
 

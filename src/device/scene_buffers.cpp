@@ -38,9 +38,10 @@ std::vector<cl_float> triangle_records(const NormalisedScene& geometry, const Li
     return records;
 }
 
-std::vector<DeviceMaterial> device_materials(const Scene& scene) {
+std::vector<DeviceMaterial> device_materials(const Scene& scene, const MediaTables& media) {
     std::vector<DeviceMaterial> materials;
-    for (const Material& material : scene.materials) materials.push_back(device_material(material));
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        materials.push_back(device_material(scene.materials[m], media.rows[m]));
     return materials;
 }
 
@@ -52,12 +53,14 @@ SceneBuffers::SceneBuffers(
     const NormalisedScene& geometry,
     const Bvh& bvh,
     const LightTables& tables,
+    const MediaTables& media_tables,
     const TextureTables& texture_tables)
     : nodes(device, bvh.nodes, "BVH nodes"),
       blocks(device, bvh.blocks, "BVH leaves"),
       triangles(device, triangle_records(geometry, tables), "triangles"),
-      materials(device, device_materials(scene), "materials"),
+      materials(device, device_materials(scene, media_tables), "materials"),
       lights(device, tables.lights, "lights"),
+      media(device, media_tables.media, "media"),
       environment(device, tables.environment, "environment map"),
       textures(device, texture_tables.rows, "textures") {
     for (std::size_t page = 0; page < texels.size(); ++page) {
@@ -90,7 +93,7 @@ void SceneBuffers::write_texels(
 
 std::size_t SceneBuffers::bytes() const {
     return nodes.bytes() + blocks.bytes() + triangles.bytes() + materials.bytes() + lights.bytes() +
-           environment.bytes() + texture_bytes();
+           media.bytes() + environment.bytes() + texture_bytes();
 }
 
 std::size_t SceneBuffers::texture_bytes() const {

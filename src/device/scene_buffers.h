@@ -4,6 +4,7 @@
 #include "device/device_array.h"
 #include "scene/bvh_builder.h"
 #include "scene/light_tables.h"
+#include "scene/media_tables.h"
 #include "scene/normalise.h"
 #include "scene/texture_tables.h"
 #include "shared/scene.h"
@@ -17,6 +18,7 @@ struct SceneBuffers {
         const NormalisedScene& geometry,
         const Bvh& bvh,
         const LightTables& tables,
+        const MediaTables& media_tables,
         const TextureTables& texture_tables);
 
     DeviceArray<BvhNode> nodes;
@@ -24,6 +26,7 @@ struct SceneBuffers {
     DeviceArray<cl_float> triangles;  // layout in kernels/shared/scene.h
     DeviceArray<DeviceMaterial> materials;
     DeviceArray<DeviceLight> lights;
+    DeviceArray<DeviceMedium> media;
     DeviceArray<EnvironmentEntry> environment;
 
     DeviceArray<DeviceTexture> textures;  // TEXTURE_USES a material

@@ -1,8 +1,12 @@
 #include "measure/report.h"
 
+#include "measure/revision.h"
+
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace wavepath {
 
@@ -28,11 +32,69 @@ ordered_json image_reports(const Scene& scene) {
     return images;
 }
 
-ordered_json settings_report(const RenderSettings& settings) {
+ordered_json scene_report(const RenderJob& job, const RenderResult& result) {
     return {
+        {"name", job.scene.name},
+        {"triangles", result.triangles},
+        {"zero_area_triangles", result.dropped_triangles},
+        {"materials", job.scene.materials.size()},
+        {"images", image_reports(job.scene)},
+        {"texture_pages", result.texture_pages},
+        {"lights", result.lights},
+        {"bvh_nodes", result.bvh_nodes},
+        {"bvh_blocks", result.bvh_blocks},
+    };
+}
+
+ordered_json times_report(const RenderJob& job, const RenderResult& result) {
+    return {
+        {"load", job.load_seconds},
+        {"normalise", result.times.normalise},
+        {"bvh_build", result.times.bvh_build},
+        {"upload", result.times.upload},
+        {"program_build", result.times.program_build},
+        {"render", result.times.render},
+    };
+}
+
+ordered_json rays_report(const RenderResult& result) {
+    const auto rays = static_cast<double>(result.rays.closest + result.rays.connections);
+    return {
+        {"closest_hit", result.rays.closest},
+        {"occlusion", result.rays.connections},
+        {"per_s", number(rays / result.times.render)},
+    };
+}
+
+ordered_json memory_report(const RenderResult& result) {
+    return {
+        {"host_peak", peak_host_memory()},         {"device_scene", result.scene_bytes},
+        {"device_textures", result.texture_bytes}, {"device_pool", result.pool_bytes},
+        {"device_film", result.film_bytes},
+    };
+}
+
+}  // namespace
+
+std::string build_text() {
+    return fmt::format("{} ({}), {}", WAVEPATH_VERSION, revision, WAVEPATH_COMPILER);
+}
+
+ordered_json settings_report(const RenderJob& job) {
+    const RenderSettings& settings = job.settings;
+    ordered_json environment = nullptr;
+    if (job.scene.environment)
+        environment = {
+            {"map", job.scene.environment->name}, {"radiance", job.scene.environment->radiance}};
+    ordered_json report = {
         {"width", settings.width},
         {"height", settings.height},
         {"camera", settings.camera.name},
+        {"camera_to_world", settings.camera.to_world},
+        {"y_fov_deg", settings.camera.orthographic
+                          ? ordered_json(nullptr)
+                          : ordered_json(settings.camera.y_fov * 180 / std::numbers::pi)},
+        {"environment", environment},
         {"samples", settings.samples},
         {"time_limit_s", settings.seconds},
         {"target_error", settings.target_error},
@@ -41,12 +103,17 @@ ordered_json settings_report(const RenderSettings& settings) {
         {"light_choice", settings.method.light_choice == LightChoice::area ? "area" : "power"},
         {"termination", settings.termination.text()},
         {"sampler", settings.sobol ? "sobol" : "independent"},
-        {"splits", {1, 1, settings.splits}},
+        {"splits",
+         {settings.splits.stops, settings.splits.directions, settings.splits.reflections}},
         {"split_depth", settings.split_depth},
     };
+    const auto encloses = [](const Material& m) { return m.boundary != Boundary::opaque; };
+    if (std::ranges::any_of(job.scene.materials, encloses)) {
+        report["distance"] = name_of(settings.method.distances);
+        report["direction"] = settings.method.phase_directions ? "phase" : "uniform";
+    }
+    return report;
 }
-
-}  // namespace
 
 ordered_json profile_report(const RenderResult& result) {
     double kernels = 0;
@@ -76,59 +143,36 @@ ordered_json profile_report(const RenderResult& result) {
 ordered_json render_report(const Device& device, const RenderJob& job, const RenderResult& result) {
     const double pixels = double{1} * job.settings.width * job.settings.height;
     const double samples = pixels * static_cast<double>(result.samples);
-    const double rays = static_cast<double>(result.rays.closest + result.rays.connections);
     uint64_t paths = 0;
     for (const uint64_t n : result.rays.path_lengths) paths += n;
     ordered_json report = {
         {"schema", report_schema},
         {"program", "wavepath"},
         {"version", WAVEPATH_VERSION},
-        {"settings", settings_report(job.settings)},
+        {"build", build_text()},
+        {"settings", settings_report(job)},
         {"device",
          {{"platform", device.info.platform},
           {"name", device.info.name},
           {"version", device.info.version},
           {"driver", device.info.driver},
           {"compute_units", device.info.compute_units}}},
-        {"scene",
-         {{"name", job.scene.name},
-          {"triangles", result.triangles},
-          {"zero_area_triangles", result.dropped_triangles},
-          {"materials", job.scene.materials.size()},
-          {"images", image_reports(job.scene)},
-          {"texture_pages", result.texture_pages},
-          {"lights", result.lights},
-          {"bvh_nodes", result.bvh_nodes},
-          {"bvh_blocks", result.bvh_blocks}}},
-        {"times_s",
-         {{"load", job.load_seconds},
-          {"normalise", result.times.normalise},
-          {"bvh_build", result.times.bvh_build},
-          {"upload", result.times.upload},
-          {"program_build", result.times.program_build},
-          {"render", result.times.render}}},
-        {"program",
-         {{"build_s", result.program.seconds}, {"from_own_cache", result.program.from_cache}}},
+        {"scene", scene_report(job, result)},
+        {"times_s", times_report(job, result)},
+        {"program_build",
+         {{"seconds", result.program.seconds}, {"from_own_cache", result.program.from_cache}}},
         {"samples_per_pixel", result.samples},
         {"samples_per_s", number(samples / result.times.render)},
         {"batches", result.batches},
-        {"rays",
-         {{"closest_hit", result.rays.closest},
-          {"occlusion", result.rays.connections},
-          {"per_s", number(rays / result.times.render)}}},
+        {"rays", rays_report(result)},
         {"path_lengths", result.rays.path_lengths},
         {"mean_path_length",
          number(static_cast<double>(result.rays.closest) / static_cast<double>(paths))},
         {"relative_error", number(result.film.relative_error)},
-        {"bias", job.settings.termination.bias()},
+        {"bias", job.settings.bias()},
         {"nonfinite_samples", result.film.nonfinite.samples},
         {"interrupted", result.interrupted},
-        {"memory_bytes",
-         {{"host_peak", peak_host_memory()},
-          {"device_scene", result.scene_bytes},
-          {"device_textures", result.texture_bytes},
-          {"device_pool", result.pool_bytes},
-          {"device_film", result.film_bytes}}},
+        {"memory_bytes", memory_report(result)},
         {"warnings", result.warnings},
     };
     if (result.film.nonfinite.samples > 0)

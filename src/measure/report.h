@@ -5,10 +5,17 @@
 #include "wavefront/renderer.h"
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace wavepath {
 
 inline constexpr int report_schema = 1;
+
+// Version, revision and compiler.
+std::string build_text();
+
+// What was asked for; with the same version it makes the same picture.
+nlohmann::ordered_json settings_report(const RenderJob& job);
 
 // Non-finite numbers become null.
 nlohmann::ordered_json render_report(

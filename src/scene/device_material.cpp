@@ -13,9 +13,21 @@ float dielectric_f0(const Material& material, std::size_t channel) {
     return material.has(TEXTURE_SPECULAR_COLOR) ? f0 : std::min(f0, 1.0F);
 }
 
+cl_uint device_boundary(Boundary boundary) {
+    switch (boundary) {
+        case Boundary::opaque:
+            return BOUNDARY_OPAQUE;
+        case Boundary::index_matched:
+            return BOUNDARY_INDEX_MATCHED;
+        case Boundary::dielectric:
+            return BOUNDARY_DIELECTRIC;
+    }
+    return BOUNDARY_OPAQUE;
+}
+
 }  // namespace
 
-DeviceMaterial device_material(const Material& material) {
+DeviceMaterial device_material(const Material& material, uint32_t medium) {
     DeviceMaterial d{};
     d.base_r = material.base_color[0];
     d.base_g = material.base_color[1];
@@ -31,11 +43,20 @@ DeviceMaterial device_material(const Material& material) {
     d.alpha = material.roughness * material.roughness;
     d.transmission = material.transmission;
     d.double_sided = material.double_sided ? 1 : 0;
+    d.boundary = device_boundary(material.boundary);
+    d.medium = medium;
     return d;
 }
 
+bool refracts_roughly(const Material& material) {
+    constexpr float mirror_alpha = 1e-3F;  // kernels/materials/ggx.cl, MIRROR_ALPHA
+    return material.boundary == Boundary::dielectric &&
+           material.roughness * material.roughness >= mirror_alpha;
+}
+
 bool reflects_specularly(const Material& material) {
-    return material.metallic > 0 || material.specular > 0 || material.transmission > 0;
+    return material.boundary == Boundary::opaque &&
+           (material.metallic > 0 || material.specular > 0 || material.transmission > 0);
 }
 
 }  // namespace wavepath

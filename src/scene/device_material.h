@@ -7,7 +7,11 @@ namespace wavepath {
 
 // F0 of the dielectric: min(((ior - 1) / (ior + 1))^2 * specularColor, 1); 1 for ior 0
 // (KHR_materials_ior, _specular). Where a texture tints it, the minimum is left to apply_textures.
-DeviceMaterial device_material(const Material& material);
+// `medium`: MediaTables::rows.
+DeviceMaterial device_material(const Material& material, uint32_t medium);
+
+// Whether it is a boundary of microfacets that refract.
+bool refracts_roughly(const Material& material);
 
 // Whether it has a lobe besides the Lambertian.
 bool reflects_specularly(const Material& material);

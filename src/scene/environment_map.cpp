@@ -111,6 +111,7 @@ Environment load_environment_map(const std::filesystem::path& path) {
             "{}: texel ({}, {}) holds {}; repair it by oiiotool --fixnan box3 --clamp:min=0", name,
             texel % map.width, texel / map.width, *bad);
     }
+    map.name = name;
     map.radiance = {1, 1, 1};
     return map;
 }

@@ -113,18 +113,11 @@ Rows find_rows(
     std::size_t row_size,
     std::string_view where) {
     const auto& view = file.at(file.model.bufferViews, view_index, "bufferView", where);
-    const std::string view_label = label("bufferView", view_index, view.name);
-    const auto& data = file.at(file.model.buffers, view.buffer, "buffer", view_label).data;
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-        file.fail(
-            view_label,
-            "ends after its buffer of {} bytes; the file is cut short or wrong, export again",
-            data.size());
-
+    const std::span<const unsigned char> bytes = view_bytes(file, view_index, where);
     const std::size_t stride = view.byteStride == 0 ? row_size : view.byteStride;
     if (stride < row_size)
         file.fail(
-            view_label,
+            label("bufferView", view_index, view.name),
             "byteStride {} is less than the {} bytes of a row; repair it or export again", stride,
             row_size);
     if (byte_offset > view.byteLength || row_size > view.byteLength - byte_offset ||
@@ -134,7 +127,7 @@ Rows find_rows(
             "{} rows from byte {} end after bufferView {} of {} bytes; repair the count or export "
             "again",
             count, byte_offset, view_index, view.byteLength);
-    return {data.data() + view.byteOffset + byte_offset, stride};
+    return {bytes.data() + byte_offset, stride};
 }
 
 std::size_t checked_sparse_offset(const GltfFile& file, int byte_offset, std::string_view where) {
@@ -215,6 +208,27 @@ std::vector<T> read_rows(
 }
 
 }  // namespace
+
+std::span<const unsigned char> buffer_bytes(
+    const GltfFile& file,
+    int buffer,
+    std::size_t offset,
+    std::size_t length,
+    std::string_view where) {
+    const auto& data = file.at(file.model.buffers, buffer, "buffer", where).data;
+    if (offset > data.size() || length > data.size() - offset)
+        file.fail(
+            where,
+            "ends after its buffer of {} bytes; the file is cut short or wrong, export again",
+            data.size());
+    return {data.data() + offset, length};
+}
+
+std::span<const unsigned char> view_bytes(const GltfFile& file, int index, std::string_view where) {
+    const auto& view = file.at(file.model.bufferViews, index, "bufferView", where);
+    return buffer_bytes(
+        file, view.buffer, view.byteOffset, view.byteLength, label("bufferView", index, view.name));
+}
 
 std::vector<float> read_vectors(
     const GltfFile& file, int accessor_index, std::size_t width, std::string_view where) {

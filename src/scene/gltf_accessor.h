@@ -5,10 +5,22 @@
 #include "scene/gltf_file.h"
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
 namespace wavepath {
+
+// `length` bytes of a buffer from `offset` on; `where` names who asks for them.
+std::span<const unsigned char> buffer_bytes(
+    const GltfFile& file,
+    int buffer,
+    std::size_t offset,
+    std::size_t length,
+    std::string_view where);
+
+// The bytes of a buffer view.
+std::span<const unsigned char> view_bytes(const GltfFile& file, int view, std::string_view where);
 
 // `width` numbers a row, finite; normalized integers as fractions. A vector may have more
 // components than `width` (1 .. 4), of which the first are read; 16 reads a MAT4, column by column.

@@ -58,6 +58,7 @@ void read_surface_attributes(
     const tinygltf::Primitive& source,
     const Material& material,
     std::string_view where,
+    bool bent,
     Primitive& primitive,
     Ignored& ignored) {
     const std::size_t vertex_count = primitive.positions.size() / 3;
@@ -74,7 +75,7 @@ void read_surface_attributes(
     if (material.has(TEXTURE_NORMAL)) {
         // without normals the given tangents are void [glTF 2.0, section 3.7.2.1]
         const std::vector<float> given =
-            primitive.normals.empty() ? std::vector<float>{} : reader.read("TANGENT", 4);
+            primitive.normals.empty() || bent ? std::vector<float>{} : reader.read("TANGENT", 4);
         primitive.tangents =
             given.empty()
                 ? derive_tangents(primitive, primitive.uvs[material.texture(TEXTURE_NORMAL).uvs])

@@ -1,5 +1,9 @@
 #include "scene/gltf_file.h"
 
+#include "scene/gltf_draco.h"
+#include "scene/gltf_meshopt.h"
+#include "scene/gltf_placeholders.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -16,10 +20,25 @@ namespace {
 namespace fs = std::filesystem;
 
 // Sorted.
-constexpr std::array<std::string_view, 9> supported_extensions{
-    "EXT_texture_webp",    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",   "KHR_materials_specular", "KHR_materials_transmission",
-    "KHR_materials_unlit", "KHR_mesh_quantization",  "KHR_texture_transform"};
+constexpr auto supported_extensions = std::to_array<std::string_view>({
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_scatter",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+});
 
 // Magic, version, length; length and type of the JSON chunk.
 constexpr std::size_t glb_header_size = 20;
@@ -51,8 +70,13 @@ std::uint32_t word_at(std::span<const unsigned char> bytes, std::size_t offset) 
 void check_glb_header(std::span<const unsigned char> bytes, const std::string& name) {
     if (bytes.size() >= 8 && word_at(bytes, 4) != 2)
         throw Error("{}: is binary glTF version {}; export as glTF 2.0", name, word_at(bytes, 4));
-    if (bytes.size() < glb_header_size || bytes.size() < word_at(bytes, 8) ||
-        bytes.size() - glb_header_size < word_at(bytes, 12))
+    bool is_whole = bytes.size() >= glb_header_size && word_at(bytes, 8) >= glb_header_size &&
+                    bytes.size() >= word_at(bytes, 8);
+    // chunks: length, type, data
+    for (std::size_t at = 12; is_whole && at + 8 <= word_at(bytes, 8);
+         at += 8 + std::size_t{word_at(bytes, at)})
+        is_whole = word_at(bytes, at) <= word_at(bytes, 8) - at - 8;
+    if (!is_whole)
         throw Error("{}: is cut short or gives a wrong length; copy or export it again", name);
 }
 
@@ -129,6 +153,21 @@ void forgive_skins(std::string& error) {
         error.erase(at, complaint.size());
 }
 
+// The file with other JSON.
+std::vector<unsigned char> with_json(std::span<const unsigned char> bytes, std::string_view json) {
+    if (!is_binary(bytes)) return {json.begin(), json.end()};
+    const auto chunks = bytes.subspan(glb_header_size + word_at(bytes, 12));
+    std::vector<unsigned char> file(bytes.begin(), bytes.begin() + glb_header_size);
+    file.insert(file.end(), json.begin(), json.end());
+    file.resize((file.size() + 3) / 4 * 4, ' ');  // header and chunks are multiples of 4
+    const auto json_size = static_cast<std::uint32_t>(file.size() - glb_header_size);
+    file.insert(file.end(), chunks.begin(), chunks.end());
+    const auto size = static_cast<std::uint32_t>(file.size());
+    std::memcpy(&file[8], &size, sizeof size);
+    std::memcpy(&file[12], &json_size, sizeof json_size);
+    return file;
+}
+
 // What tinygltf holds against the file, also where it claims success; empty: nothing.
 std::string parse(
     std::span<const unsigned char> bytes, const fs::path& folder, tinygltf::Model& model) {
@@ -196,7 +235,7 @@ void check_required_extensions(const GltfFile& file) {
 
 GltfFile read_gltf_file(const fs::path& path) {
     constexpr int max_nesting = 256;
-    const std::vector<unsigned char> bytes = read_bytes(path);
+    std::vector<unsigned char> bytes = read_bytes(path);
     GltfFile file{path.filename().string(), {}};
     if (bytes.size() > std::numeric_limits<unsigned int>::max())
         throw Error(
@@ -208,6 +247,8 @@ GltfFile read_gltf_file(const fs::path& path) {
         throw Error(
             "{}: JSON is nested deeper than {} levels; export again", file.name, max_nesting);
 
+    if (const auto json = with_placeholders(json_text(bytes), is_binary(bytes)))
+        bytes = with_json(bytes, *json);
     const std::string error = parse(bytes, fs::absolute(path).parent_path(), file.model);
     // Version and extensions are known even after a failure, and often its reason: they go first.
     check_version(file);
@@ -215,6 +256,8 @@ GltfFile read_gltf_file(const fs::path& path) {
     if (!error.empty())
         throw Error(
             "{}: not valid glTF: {}; repair the file or export again", file.name, one_line(error));
+    decode_meshopt(file);
+    decode_draco(file);
     return file;
 }
 
@@ -255,6 +298,19 @@ double number(
     const tinygltf::Value& value = object.Get(key);
     if (!value.IsNumber()) file.fail(where, "{} is not a number; repair it or export again", key);
     return value.GetNumberAsDouble();
+}
+
+int integer(
+    const GltfFile& file,
+    std::string_view where,
+    const tinygltf::Value& object,
+    const char* key,
+    std::optional<int> missing) {
+    if (!object.Has(key) && missing) return *missing;
+    const tinygltf::Value& value = object.Get(key);
+    if (!value.IsInt() || value.Get<int>() < 0)
+        file.fail(where, "{} is no integer from 0 on; repair it or export again", key);
+    return value.Get<int>();
 }
 
 std::vector<double> numbers(

@@ -8,6 +8,7 @@
 #include <tiny_gltf.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -65,6 +66,15 @@ double number(
     const tinygltf::Value& object,
     const char* key,
     double missing);
+
+// The same for an integer from 0 to 2^31 - 1: an index, an offset or a size. Fails where it is
+// absent and nothing stands in for it.
+int integer(
+    const GltfFile& file,
+    std::string_view where,
+    const tinygltf::Value& object,
+    const char* key,
+    std::optional<int> missing = std::nullopt);
 
 // The same for an array of numbers.
 std::vector<double> numbers(

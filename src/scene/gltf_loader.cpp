@@ -2,10 +2,13 @@
 
 #include "scene/gltf_file.h"
 #include "scene/gltf_ignored.h"
+#include "scene/gltf_instancing.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_skin.h"
 #include "scene/gltf_texture.h"
+#include "scene/host_memory.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -14,42 +17,99 @@
 namespace wavepath {
 namespace {
 
+// Of host and device together while a scene with normals and colours is prepared on a CPU, measured
+// (docs/gltf.md).
+constexpr std::size_t bytes_a_triangle = 600;
+
 // Instances of meshes, each read when a node first asks for it: the rest of the file costs nothing.
 class MeshInstancer {
   public:
-    MeshInstancer(const GltfFile& file, Scene& scene, Ignored& ignored)
-        : file_(file), scene_(scene), ignored_(ignored) {}
+    MeshInstancer(
+        const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene, Ignored& ignored)
+        : file_(file),
+          node_to_world_(file.model.nodes.size(), nullptr),
+          scene_(scene),
+          ignored_(ignored) {
+        for (const PlacedNode& placed : nodes)
+            node_to_world_[static_cast<std::size_t>(placed.index)] = &placed.to_world;
+    }
 
     void place(const PlacedNode& placed) {
         const int mesh = placed.node.mesh;
-        if (mesh == -1) return;
-        file_.at(file_.model.meshes, mesh, "mesh", placed.label);
-        const auto [first, last] = primitives_of(mesh);
-        // A scale of 0 is how files hide a mesh.
-        if (flattens_triangles(placed.to_world)) return;
-        for (std::uint32_t primitive = first; primitive < last; ++primitive)
-            scene_.instances.push_back({primitive, placed.to_world});
+        if (mesh == -1 || !placed.visible) return;
+        Pose pose{weights(file_.at(file_.model.meshes, mesh, "mesh", placed.label), placed), {}};
+        const std::vector<Matrix4> instances = placed.node.skin == -1
+                                                   ? place_instances(file_, placed)
+                                                   : std::vector<Matrix4>{bend(pose, placed)};
+        const auto [first, last] = read(mesh, pose);
+        check_memory(first, last, instances.size(), placed);
+        for (const Matrix4& to_world : instances) {
+            if (flattens_triangles(to_world)) continue;  // a scale of 0 is how files hide a mesh
+            for (std::uint32_t primitive = first; primitive < last; ++primitive)
+                scene_.instances.push_back({primitive, to_world, bodies_});
+            ++bodies_;
+        }
     }
 
   private:
     using Range = std::pair<std::uint32_t, std::uint32_t>;  // of Scene::primitives
 
-    Range primitives_of(int mesh) {
-        if (const auto known = read_.find(mesh); known != read_.end()) return known->second;
+    // Gives `pose` its joints; returns where the bent mesh is placed: joints alone move its
+    // vertices, the transform of its node does not [glTF 2.0, section 3.7.3.3]. They are taken
+    // relative to the first joint, as single precision is finer there than far from the origin.
+    Matrix4 bend(Pose& pose, const PlacedNode& placed) const {
+        pose.joints = joint_matrices(file_, placed.node.skin, node_to_world_, placed.label);
+        const tinygltf::Skin& skin = file_.model.skins[static_cast<std::size_t>(placed.node.skin)];
+        const Vec3d origin =
+            axis(*node_to_world_[static_cast<std::size_t>(skin.joints.front())], 3);
+        for (Matrix4& joint : pose.joints)
+            for (std::size_t k = 0; k < 3; ++k) joint[12 + k] -= origin[k];
+        return compose(origin, {0, 0, 0, 1}, {1, 1, 1});
+    }
+
+    // A node's weights are for its mesh alone.
+    static std::vector<double> weights(const tinygltf::Mesh& mesh, const PlacedNode& placed) {
+        std::vector<double> weights =
+            placed.node.weights.empty() ? mesh.weights : placed.node.weights;
+        const bool base_shape = std::ranges::all_of(weights, [](double w) { return w == 0; });
+        return base_shape ? std::vector<double>{} : weights;
+    }
+
+    // Instances are expanded to triangles: the file's size bounds neither their number nor memory.
+    void check_memory(
+        std::uint32_t first, std::uint32_t last, std::size_t instances, const PlacedNode& placed) {
+        std::size_t triangles = 0;
+        for (std::uint32_t primitive = first; primitive < last; ++primitive)
+            triangles += scene_.primitives[primitive].indices.size() / 3;
+        triangles_ += triangles * instances;
+        if (triangles_ > available_memory_ / bytes_a_triangle)
+            file_.fail(
+                placed.label,
+                "brings the scene to {} triangles, which take {} MiB, and {} MiB are free; place "
+                "fewer instances or use a machine with more memory",
+                triangles_, triangles_ * bytes_a_triangle >> 20U, available_memory_ >> 20U);
+    }
+
+    Range read(int mesh, const Pose& pose) {
+        const auto [known, is_new] = read_.try_emplace({mesh, pose});
+        if (!is_new) return known->second;
         const auto first = static_cast<std::uint32_t>(scene_.primitives.size());
-        for (Primitive& primitive : read_mesh(file_, mesh, scene_.materials, ignored_))
+        for (Primitive& primitive : read_mesh(file_, mesh, pose, scene_.materials, ignored_))
             scene_.primitives.push_back(std::move(primitive));
-        return read_[mesh] = {first, static_cast<std::uint32_t>(scene_.primitives.size())};
+        return known->second = {first, static_cast<std::uint32_t>(scene_.primitives.size())};
     }
 
     const GltfFile& file_;
+    std::vector<const Matrix4*> node_to_world_;  // by node; null: not in the scene
     Scene& scene_;
     Ignored& ignored_;
-    std::map<int, Range> read_;
+    std::size_t triangles_ = 0;  // instances expanded
+    const std::size_t available_memory_ = available_memory();
+    std::map<std::pair<int, Pose>, Range> read_;
+    std::uint32_t bodies_ = 0;
 };
 
 void note_ignored_features(const tinygltf::Model& model, Ignored& ignored) {
-    ignored.add("skins", "rendered in the rest pose", model.skins.size());
     ignored.add("animations", "rendered at rest", model.animations.size());
 }
 
@@ -75,22 +135,28 @@ std::vector<std::string> ignored_extensions(const tinygltf::Model& model) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path, uint64_t most_texels) {
+Scene load_gltf(
+    const std::filesystem::path& path, const std::string& selector, uint64_t most_texels) {
     const GltfFile file = read_gltf_file(path);
     Scene scene;
-    scene.name = path.stem().string();
-    scene.materials = read_materials(file);
+    scene.name = path.string();
 
     Ignored ignored;
+    scene.materials = read_materials(file, ignored);
     note_ignored_features(file.model, ignored);
-    MeshInstancer meshes(file, scene, ignored);
-    for (const PlacedNode& placed : place_nodes(file)) {
+    const std::vector<PlacedNode> nodes = place_nodes(file, selector);
+    MeshInstancer meshes(file, nodes, scene, ignored);
+    for (const PlacedNode& placed : nodes) {
         meshes.place(placed);
         if (auto camera = read_camera(file, placed)) scene.cameras.push_back(*std::move(camera));
+        if (!placed.visible) continue;
         if (auto light = read_light(file, placed)) scene.lights.push_back(*std::move(light));
     }
     if (scene.triangle_count() == 0)
-        file.fail("default scene", "holds no triangles; add a mesh to it or choose another file");
+        file.fail(
+            selector.empty() ? "default scene" : fmt::format("scene {}", selector),
+            "holds no triangles; add a mesh to it or choose another {}",
+            file.model.scenes.size() > 1 ? "--scene" : "file");
 
     load_images(file, scene, most_texels);
     drop_default_material_if_unused(scene);

@@ -1,5 +1,6 @@
 #include "scene/gltf_material.h"
 
+#include "scene/gltf_medium.h"
 #include "scene/gltf_texture.h"
 
 #include <algorithm>
@@ -147,10 +148,13 @@ class MaterialReader {
 
 }  // namespace
 
-std::vector<Material> read_materials(const GltfFile& file) {
+std::vector<Material> read_materials(const GltfFile& file, Ignored& ignored) {
     std::vector<Material> materials;
-    for (std::size_t i = 0; i < file.model.materials.size(); ++i)
-        materials.push_back(MaterialReader(file, static_cast<int>(i)).read());
+    for (std::size_t i = 0; i < file.model.materials.size(); ++i) {
+        const int index = static_cast<int>(i);
+        materials.push_back(MaterialReader(file, index).read());
+        read_medium(file, index, materials.back(), ignored);
+    }
     materials.push_back({.name = "default"});
     return materials;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/gltf_file.h"
+#include "scene/gltf_ignored.h"
 #include "scene/scene.h"
 
 #include <vector>
@@ -12,6 +13,6 @@ namespace wavepath {
 // section 3.9.6]. Their textures name images of the file, which load_images (gltf_texture.h) makes
 // those of the scene. Factors outside the range glTF gives them are an error: a base color above 1
 // would make energy.
-std::vector<Material> read_materials(const GltfFile& file);
+std::vector<Material> read_materials(const GltfFile& file, Ignored& ignored);
 
 }  // namespace wavepath

@@ -2,9 +2,11 @@
 
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_attributes.h"
+#include "scene/gltf_skin.h"
 #include "scene/transform.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -28,10 +30,6 @@ std::vector<std::uint32_t> triangulate(int mode, std::vector<std::uint32_t> corn
             triangles.insert(triangles.end(), {corners[i + 1], corners[i + 2], corners[0]});
     }
     return triangles;
-}
-
-Vec3d vec3_at(const std::vector<float>& values, std::size_t row) {
-    return {values[3 * row], values[3 * row + 1], values[3 * row + 2]};
 }
 
 // The area-weighted mean of the faces around each vertex; zero where they have no area.
@@ -70,17 +68,30 @@ void normalize_normals(Primitive& primitive) {
 // One primitive and how messages call it: mesh 3 "lamp", primitive 0.
 class PrimitiveReader {
   public:
-    PrimitiveReader(const GltfFile& file, const tinygltf::Primitive& source, std::string where)
-        : file_(file), source_(source), where_(std::move(where)) {}
+    PrimitiveReader(
+        const GltfFile& file,
+        const tinygltf::Primitive& source,
+        const Pose& pose,
+        std::string where)
+        : file_(file), source_(source), pose_(pose), where_(std::move(where)) {}
 
     Primitive read(std::uint32_t default_material) const {
         Primitive primitive;
+        if (!pose_.weights.empty() && pose_.weights.size() != source_.targets.size())
+            file_.fail(
+                where_, "has {} morph targets, but {} weights; export again",
+                source_.targets.size(), pose_.weights.size());
         primitive.positions = attribute("POSITION").value();
         const std::size_t vertex_count = primitive.positions.size() / 3;
         if (vertex_count > std::numeric_limits<std::uint32_t>::max())
             file_.fail(where_, "has more than 2^32 vertices; split the mesh");
         primitive.indices = triangulate(source_.mode, corners(vertex_count));
         primitive.normals = attribute("NORMAL", vertex_count).value_or(std::vector<float>{});
+        if (!pose_.joints.empty())
+            apply_skin(
+                file_, primitive,
+                read_joint_weights(file_, source_, vertex_count, pose_.joints.size(), where_),
+                pose_.joints, where_);
         normalize_normals(primitive);
         primitive.colors = colors(vertex_count);
         primitive.material = material(default_material);
@@ -88,6 +99,7 @@ class PrimitiveReader {
     }
 
   private:
+    // Three numbers a vertex, morphed.
     std::optional<std::vector<float>> attribute(
         const char* name, std::optional<std::size_t> vertex_count = std::nullopt) const {
         const auto found = source_.attributes.find(name);
@@ -98,7 +110,31 @@ class PrimitiveReader {
             file_.fail(
                 where, "has {} rows, POSITION has {}; repair the mesh and export again",
                 values.size() / 3, *vertex_count);
+        morph(name, values);
         return values;
+    }
+
+    // value + sum of weight * displacement [glTF 2.0, section 3.7.2.2].
+    void morph(const char* name, std::vector<float>& values) const {
+        for (std::size_t target = 0; target < pose_.weights.size(); ++target) {
+            const auto found = source_.targets[target].find(name);
+            const double weight = pose_.weights[target];
+            if (weight == 0 || found == source_.targets[target].end()) continue;
+            const std::string where = fmt::format("{}, morph target {}, {}", where_, target, name);
+            const std::vector<float> displacements = read_vectors(file_, found->second, 3, where);
+            if (displacements.size() != values.size())
+                file_.fail(
+                    where, "has {} rows, the mesh {}; repair the mesh and export again",
+                    displacements.size() / 3, values.size() / 3);
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                const double moved =
+                    static_cast<double>(values[i]) + weight * static_cast<double>(displacements[i]);
+                if (!(std::abs(moved) <= static_cast<double>(std::numeric_limits<float>::max())))
+                    file_.fail(
+                        where, "weight {} moves row {} out of range; repair it", weight, i / 3);
+                values[i] = static_cast<float>(moved);
+            }
+        }
     }
 
     std::vector<float> colors(std::size_t vertex_count) const {
@@ -129,6 +165,7 @@ class PrimitiveReader {
 
     const GltfFile& file_;
     const tinygltf::Primitive& source_;
+    const Pose& pose_;
     std::string where_;
 };
 
@@ -140,7 +177,11 @@ bool makes_triangles(int mode) {
 }  // namespace
 
 std::vector<Primitive> read_mesh(
-    const GltfFile& file, int index, const std::vector<Material>& materials, Ignored& ignored) {
+    const GltfFile& file,
+    int index,
+    const Pose& pose,
+    const std::vector<Material>& materials,
+    Ignored& ignored) {
     const auto default_material = static_cast<std::uint32_t>(materials.size() - 1);
     const tinygltf::Mesh& mesh = file.model.meshes[static_cast<std::size_t>(index)];
     std::vector<Primitive> primitives;
@@ -158,11 +199,11 @@ std::vector<Primitive> read_mesh(
             ignored.add("primitives without POSITION", "left out");
             continue;
         }
-        Primitive primitive = PrimitiveReader(file, source, where).read(default_material);
+        Primitive primitive = PrimitiveReader(file, source, pose, where).read(default_material);
         if (primitive.indices.empty()) continue;
         read_surface_attributes(
-            file, source, materials[primitive.material], where, primitive, ignored);
-        ignored.add("morph targets", "rendered in the base shape", source.targets.size());
+            file, source, materials[primitive.material], where,
+            !pose.weights.empty() || !pose.joints.empty(), primitive, ignored);
         primitive.name = mesh.name.empty() ? label("mesh", index, "") : mesh.name;
         primitives.push_back(std::move(primitive));
     }

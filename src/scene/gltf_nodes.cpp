@@ -2,7 +2,10 @@
 
 #include "scene/transform.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace wavepath {
@@ -47,6 +50,16 @@ Matrix4 local_transform(const GltfFile& file, const tinygltf::Node& node, std::s
     return matrix;
 }
 
+// A hidden node hides its whole subtree.
+bool is_visible(const GltfFile& file, const tinygltf::Node& node, std::string_view where) {
+    const auto* extension = find_extension(node.extensions, "KHR_node_visibility");
+    if (!extension || !extension->Has("visible")) return true;
+    const tinygltf::Value& visible = extension->Get("visible");
+    if (!visible.IsBool())
+        file.fail(where, "KHR_node_visibility: visible is neither true nor false; repair it");
+    return visible.Get<bool>();
+}
+
 // Walks the tree from its roots with a stack of its own: files decide how deep it is.
 class TreeWalk {
   public:
@@ -55,7 +68,7 @@ class TreeWalk {
 
     std::vector<PlacedNode> walk(const std::vector<int>& roots, std::string_view roots_label) {
         std::vector<PlacedNode> placed;
-        push(roots, identity_matrix, roots_label);
+        push(roots, identity_matrix, true, roots_label);
         while (!pending_.empty()) {
             const Pending next = pending_.back();
             pending_.pop_back();
@@ -67,8 +80,9 @@ class TreeWalk {
                 file_.fail(
                     where,
                     "its transform is not finite; repair it and its parents' or export again");
-            placed.push_back({node, where, to_world});
-            push(node.children, to_world, where);
+            const bool visible = next.parent_visible && is_visible(file_, node, where);
+            placed.push_back({node, next.index, where, to_world, visible});
+            push(node.children, to_world, visible, where);
         }
         return placed;
     }
@@ -77,11 +91,16 @@ class TreeWalk {
     struct Pending {
         int index;
         Matrix4 parent_to_world;
+        bool parent_visible;
     };
 
     const std::vector<tinygltf::Node>& nodes() const { return file_.model.nodes; }
 
-    void push(const std::vector<int>& children, const Matrix4& to_world, std::string_view parent) {
+    void push(
+        const std::vector<int>& children,
+        const Matrix4& to_world,
+        bool visible,
+        std::string_view parent) {
         for (const int child : children) {
             file_.at(nodes(), child, "node", parent);
             if (has_parent_[static_cast<std::size_t>(child)])
@@ -92,7 +111,7 @@ class TreeWalk {
             has_parent_[static_cast<std::size_t>(child)] = true;
         }
         for (auto child = children.rbegin(); child != children.rend(); ++child)
-            pending_.push_back({*child, to_world});
+            pending_.push_back({*child, to_world, visible});
     }
 
     const GltfFile& file_;
@@ -112,12 +131,31 @@ std::vector<int> nodes_without_parent(const tinygltf::Model& model) {
     return roots;
 }
 
+int scene_named(const GltfFile& file, const std::string& selector) {
+    const std::vector<tinygltf::Scene>& scenes = file.model.scenes;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        if (scenes[i].name == selector) return static_cast<int>(i);
+        names.push_back(label("scene", static_cast<int>(i), scenes[i].name));
+    }
+    std::size_t index = 0;
+    const char* const end = selector.data() + selector.size();
+    const auto [rest, error] = std::from_chars(selector.data(), end, index);
+    if (error == std::errc{} && rest == end && index < scenes.size())
+        return static_cast<int>(index);
+    throw Error(
+        "--scene {}: {} has {} scene(s){}{}; name one of them by index or name", selector,
+        file.name, scenes.size(), names.empty() ? "" : ": ",
+        one_line(fmt::format("{}", fmt::join(names, ", "))));
+}
+
 }  // namespace
 
-std::vector<PlacedNode> place_nodes(const GltfFile& file) {
+std::vector<PlacedNode> place_nodes(const GltfFile& file, const std::string& selector) {
     const tinygltf::Model& model = file.model;
-    if (!model.scenes.empty() || model.defaultScene != -1) {
-        const int index = std::max(model.defaultScene, 0);
+    if (!selector.empty() || !model.scenes.empty() || model.defaultScene != -1) {
+        const int index =
+            selector.empty() ? std::max(model.defaultScene, 0) : scene_named(file, selector);
         const tinygltf::Scene& scene = file.at(model.scenes, index, "scene", "default scene");
         return TreeWalk(file).walk(scene.nodes, label("scene", index, scene.name));
     }

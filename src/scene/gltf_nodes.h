@@ -11,13 +11,16 @@ namespace wavepath {
 
 struct PlacedNode {
     const tinygltf::Node& node;
+    int index;          // into the file's nodes
     std::string label;  // for messages
     Matrix4 to_world;   // finite, affine
+    bool visible;       // with its meshes and lights [KHR_node_visibility]
 };
 
-// Nodes of the default scene in depth-first order: of the scene the file names, else of its first;
-// of all nodes where it has no scene. Throws Error where they do not form a tree.
-std::vector<PlacedNode> place_nodes(const GltfFile& file);
+// Nodes of one scene in depth-first order. `scene`: its name or index; empty: the scene that the
+// file calls its default, else its first, else all nodes of a file without scenes. Throws Error
+// where there is no such scene, or its nodes do not form a tree.
+std::vector<PlacedNode> place_nodes(const GltfFile& file, const std::string& scene);
 
 // Perspective or orthographic. The frame is orthonormal: a view ignores its node's scale [glTF 2.0,
 // section 3.10.2].

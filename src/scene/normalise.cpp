@@ -186,8 +186,10 @@ NormalisedScene normalise(const Scene& scene) {
     Attributes attributes;
     for (const Instance& instance : scene.instances)
         attributes.add(scene.primitives[instance.primitive]);
-    for (const Instance& instance : scene.instances)
+    for (const Instance& instance : scene.instances) {
         append_instance(out, scene.primitives[instance.primitive], instance.to_world, attributes);
+        out.ends.push_back(static_cast<uint32_t>(out.triangle_count()));
+    }
     if (out.materials.empty())
         throw Error("{}: every triangle has zero area; there is nothing to render", scene.name);
     for (const PunctualLight& light : scene.lights)

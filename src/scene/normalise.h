@@ -30,6 +30,7 @@ struct NormalisedScene {
                                     // cross(normal, tangent)
     std::vector<float> alphas;      // 3 a triangle, or empty: all 1
     std::vector<uint32_t> materials;  // one a triangle
+    std::vector<uint32_t> ends;       // of each instance's triangles
     std::vector<PunctualLight>
         lights;  // positions and ranges normalised; point and spot intensity / metres^2
     std::size_t dropped = 0;  // triangles of zero area, left out

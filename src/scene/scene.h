@@ -18,6 +18,24 @@ using Matrix4 = std::array<double, 16>;  // column-major, as glTF stores it
 
 inline constexpr Matrix4 identity_matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
+// What a surface does to light that meets it.
+enum class Boundary {
+    opaque,
+    index_matched,  // passes straight, tinted by the base colour: nothing is reflected or refracted
+    dielectric  // smooth: reflects and refracts by Fresnel's equations, tints what it lets through
+};
+
+// A homogeneous medium, per metre of world space.
+struct Medium {
+    Rgb sigma_a{0, 0, 0};   // [1/m] absorption
+    Rgb sigma_s{0, 0, 0};   // [1/m] scattering
+    Rgb emission{0, 0, 0};  // radiance emitted per metre: sigma_a B where it is isothermal
+    float anisotropy = 0;   // [1] g of Henyey-Greenstein: mean cosine, -1 < g < 1
+
+    bool emits() const { return emission[0] > 0 || emission[1] > 0 || emission[2] > 0; }
+    bool scatters() const { return sigma_s[0] > 0 || sigma_s[1] > 0 || sigma_s[2] > 0; }
+};
+
 // Texels as they are coded, RGBA, row by row from the top; what the codes mean is the texture's.
 struct TextureImage {
     uint32_t width = 0;
@@ -54,7 +72,9 @@ struct Material {
     float transmission = 0;     // [1] share of what enters that goes straight through (thin walls)
     Rgb emission{0, 0, 0};      // radiance: emissiveFactor * emissiveStrength
     bool double_sided = false;  // true: emits from both faces
-    bool unlit = false;         // reflects nothing; vertex colours multiply its emission
+    Boundary boundary = Boundary::opaque;
+    Medium medium{};     // what it encloses, unless it is opaque
+    bool unlit = false;  // reflects nothing; vertex colours multiply its emission
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha = 1;         // [1] factor of base colour's alpha
     float alpha_cutoff = 0;  // [1] of AlphaMode::mask: what is below is not there
@@ -85,6 +105,7 @@ struct Primitive {
 struct Instance {
     uint32_t primitive = 0;  // into Scene::primitives
     Matrix4 to_world = identity_matrix;
+    uint32_t body = 0;  // instances of one number enclose a medium together: a node's mesh
 };
 
 struct Camera {
@@ -117,16 +138,17 @@ struct Environment {
     uint32_t width = 0;     // 0: constant
     uint32_t height = 0;
     std::vector<float> pixels;  // 3 a texel, linear, row by row from the top
+    std::string name;           // the map's file
 };
 
 struct Scene {
-    std::string name;                 // file stem
+    std::string name;                 // its file
     std::vector<Material> materials;  // at least one
     std::vector<TextureImage> images;
     std::vector<Primitive> primitives;
     std::vector<Instance> instances;    // of primitives, in depth-first order of the node tree
-    std::vector<Camera> cameras;        // of the default scene, in depth-first order
-    std::vector<PunctualLight> lights;  // of the default scene, in depth-first order
+    std::vector<Camera> cameras;        // of the scene, in depth-first order
+    std::vector<PunctualLight> lights;  // of the scene, in depth-first order
     std::optional<Environment> environment;
     std::vector<std::string>
         ignored;  // what the file asks for and this program does not do, one line each, said once

@@ -29,6 +29,12 @@ std::string Features::defines() const {
     define("HAS_PUNCTUAL_LIGHTS", punctual_lights);
     define("HAS_ENVIRONMENT", environment);
     define("HAS_ENVIRONMENT_MAP", environment_map);
+    define("HAS_MEDIA", media);
+    define("HAS_DIELECTRICS", dielectrics);
+    define("ROUGH_DIELECTRICS", rough_dielectrics);
+    define("MEDIA_SCATTER", media_scatter);
+    text += fmt::format("#define DISTANCES {}\n", static_cast<int>(distances));
+    define("PHASE_DIRECTIONS", phase_directions);
     define("HAS_SPLITS", split_levels > 0);
     define("SAMPLE_LIGHTS", sample_lights);
     define("SAMPLE_LOBES", sample_lobes);
@@ -48,9 +54,9 @@ Features features_of(
     const Scene& scene,
     const NormalisedScene& geometry,
     const LightTables& lights,
+    const MediaTables& media,
     const TextureTables& textures,
     const Method& method,
-    uint32_t split_levels,
     bool sobol) {
     Features f;
     f.vertex_normals = !geometry.normals.empty();
@@ -84,7 +90,18 @@ Features features_of(
     f.punctual_lights = !geometry.lights.empty();
     f.environment = scene.environment.has_value();
     f.environment_map = f.environment && scene.environment->width > 0;
-    f.split_levels = split_levels;
+    f.media = !media.media.empty();
+    f.media_scatter = media.scatter;
+    f.dielectrics = media.refract;
+    f.rough_dielectrics = media.refract_roughly;
+    // Without a light that is somewhere there is no angle to draw distances from.
+    const bool somewhere = std::ranges::any_of(lights.lights, [](const DeviceLight& light) {
+        return light.kind == LIGHT_TRIANGLE || light.kind == LIGHT_POINT;
+    });
+    f.distances = !media.scatter ? Distances::exponential
+                  : method.distances >= Distances::equiangular && !somewhere ? Distances::truncated
+                                                                             : method.distances;
+    f.phase_directions = method.phase_directions;
     f.sample_lights = method.sample_lights && !lights.lights.empty();
     f.sample_lobes = method.sample_lobes;
     f.weigh_both = method.weigh_both;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/light_tables.h"
+#include "scene/media_tables.h"
 #include "scene/normalise.h"
 #include "scene/scene.h"
 #include "scene/texture_tables.h"
@@ -29,7 +30,13 @@ struct Features {
     bool punctual_lights = false;
     bool environment = false;
     bool environment_map = false;
-    uint32_t split_levels = 0;  // vertices that branch
+    bool media = false;
+    bool media_scatter = false;
+    bool dielectrics = false;        // boundaries that refract
+    bool rough_dielectrics = false;  // and by microfacets
+    Distances distances = Distances::exponential;
+    bool phase_directions = true;
+    uint32_t split_levels = 0;  // vertices that branch; the renderer's to decide
     bool sample_lights = false;
     bool sample_lobes = false;
     bool weigh_both = false;
@@ -49,9 +56,9 @@ Features features_of(
     const Scene& scene,
     const NormalisedScene& geometry,
     const LightTables& lights,
+    const MediaTables& media,
     const TextureTables& textures,
     const Method& method,
-    uint32_t split_levels,
     bool sobol);
 
 }  // namespace wavepath

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <ranges>
 #include <string_view>
 
 namespace wavepath {
@@ -36,6 +37,25 @@ const Method& method_named(const std::string& name) {
         throw Error(
             "--method {}: no such method; choose path, direct, bsdf, direct-bsdf or mis", name);
     return *found;
+}
+
+namespace {
+
+constexpr std::string_view distance_names[] = {
+    "exponential", "uniform", "truncated", "equiangular", "mis"};
+
+}  // namespace
+
+Distances distances_named(const std::string& name) {
+    const auto found = std::ranges::find(distance_names, name);
+    if (found == std::end(distance_names))
+        throw Error(
+            "--distance {}: choose uniform, exponential, truncated, equiangular or mis", name);
+    return static_cast<Distances>(found - std::begin(distance_names));
+}
+
+std::string name_of(Distances distances) {
+    return std::string(distance_names[static_cast<std::size_t>(distances)]);
 }
 
 std::string Termination::text() const {
@@ -81,13 +101,22 @@ Termination parse_termination(const std::string& text) {
     return t;
 }
 
-uint32_t parse_splits(const std::string& text) {
-    uint32_t splits = 0;
-    if (text.starts_with("1,1,") && parse_number(std::string_view(text).substr(4), splits) &&
-        splits >= 1 && splits <= 4096)
-        return splits;
-    throw Error(
-        "--splits {}: use 1,1,S with S directions from a surface point (1 <= S <= 4096)", text);
+Splits parse_splits(const std::string& text) {
+    constexpr uint32_t most = 4096;
+    std::vector<uint32_t> numbers;
+    for (const auto part : std::views::split(std::string_view(text), ',')) {
+        uint32_t value = 0;
+        const bool number = parse_number(std::string_view(part.begin(), part.end()), value);
+        numbers.push_back(number ? value : 0);
+    }
+    if (numbers.size() == 2) numbers.push_back(1);
+    const auto in_range = [](uint32_t value) { return value >= 1 && value <= most; };
+    if (numbers.size() != 3 || !std::ranges::all_of(numbers, in_range))
+        throw Error(
+            "--splits {}: use N,M or N,M,S: N stops on a segment, M directions from each, S from a "
+            "surface point, each from 1 to {}",
+            text, most);
+    return {numbers[0], numbers[1], numbers[2]};
 }
 
 }  // namespace wavepath

@@ -10,6 +10,14 @@
 
 namespace wavepath {
 
+// How a path is given its next stop in a medium (docs/methods.md). Numbered as DISTANCE_* of
+// kernels/shared/features.h.
+enum class Distances { exponential, uniform, truncated, equiangular, mis };
+
+// Throws Error for a name that is none of them.
+Distances distances_named(const std::string& name);
+std::string name_of(Distances distances);
+
 struct Method {
     std::string name;
     bool sample_lights =
@@ -17,6 +25,8 @@ struct Method {
     bool sample_lobes = false;  // directions follow the bsdf; else uniform in projected solid angle
     bool weigh_both = false;    // both, by the power heuristic
     LightChoice light_choice = LightChoice::area;
+    Distances distances = Distances::exponential;
+    bool phase_directions = true;  // in media directions follow the phase function; else uniform
 };
 
 // path, direct, bsdf, direct-bsdf, mis.
@@ -41,7 +51,14 @@ struct Termination {
 // anything else.
 Termination parse_termination(const std::string& text);
 
-// "1,1,S": S directions from a surface point. Throws Error for anything else.
-uint32_t parse_splits(const std::string& text);
+// Into how many a path branches.
+struct Splits {
+    uint32_t stops = 1;        // N: on a segment in a medium
+    uint32_t directions = 1;   // M: from each
+    uint32_t reflections = 1;  // S: from a surface point
+};
+
+// "N,M" or "N,M,S". Throws Error for anything else.
+Splits parse_splits(const std::string& text);
 
 }  // namespace wavepath

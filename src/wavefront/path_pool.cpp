@@ -27,8 +27,17 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
       throughputs(device, std::size_t{THROUGHPUT_PLANES} * stride, "path pool"),
       radiances(device, std::size_t{RADIANCE_PLANES} * stride, "path pool"),
       shadows(
-          device, features.sample_lights ? std::size_t{SHADOW_PLANES} * stride : 0, "path pool"),
-      branches(device, std::size_t{BRANCH_PLANES} * features.split_levels * stride, "path pool"),
+          device,
+          features.sample_lights
+              ? std::size_t{features.media ? SHADOW_PLANES : SHADOW_PLANES_CLEAR} * stride
+              : 0,
+          "path pool"),
+      media(device, features.media ? std::size_t{MEDIUM_PLANES} * stride : 0, "path pool"),
+      branches(
+          device,
+          std::size_t{features.media ? 2 * BRANCH_PLANES : BRANCH_PLANES_SURFACE} *
+              features.split_levels * stride,
+          "path pool"),
       ids(device,
           std::size_t{features.split_levels > 0 ? ID_PLANES : ID_PLANES_UNSPLIT} * stride,
           "path pool"),
@@ -41,8 +50,9 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
 
 std::size_t PathPool::bytes() const {
     return rays.bytes() + hits.bytes() + surfaces.bytes() + throughputs.bytes() +
-           radiances.bytes() + shadows.bytes() + branches.bytes() + ids.bytes() + fates.bytes() +
-           chunk_states.bytes() + holes.bytes() + movers.bytes() + statistics.bytes();
+           radiances.bytes() + shadows.bytes() + media.bytes() + branches.bytes() + ids.bytes() +
+           fates.bytes() + chunk_states.bytes() + holes.bytes() + movers.bytes() +
+           statistics.bytes();
 }
 
 }  // namespace wavepath

@@ -3,10 +3,14 @@
 #include "wavefront/sample_plan.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace wavepath {
 
 namespace {
+
+// Iterations for a window to end by itself after a request to stop.
+constexpr uint64_t grace = 1000;
 
 template <typename StageType>
 std::optional<StageType> stage_if(
@@ -27,7 +31,12 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
     if (features.textures) names.emplace_back("apply_textures");
     if (features.environment) names.emplace_back("shade_miss");
     if (features.area_lights) names.emplace_back("shade_emission");
-    if (features.sample_lights) names.insert(names.end(), {"direct_light", "occlusion"});
+    if (features.sample_lights)
+        names.insert(
+            names.end(), {"direct_light", features.media ? "connect_through_media" : "occlusion"});
+    if (features.media) names.insert(names.end(), {"sample_distance", "pass_boundary"});
+    if (features.dielectrics) names.emplace_back("refract_boundary");
+    if (features.media_scatter) names.emplace_back("scatter_medium");
     names.insert(
         names.end(),
         {"sample_indirect", "roulette_compact", "scan_queue", "accumulate", "fold_film"});
@@ -59,23 +68,37 @@ QueueManager::QueueManager(
       assign_units_(program, "assign_units", groups.streaming, profile),
       generate_rays_(program, "generate_rays", groups.streaming, profile),
       intersect_(program, "intersect", features.rays_per_item > 1 ? 1 : groups.traversal, profile),
+      sample_distance_(stage_if<decltype(sample_distance_)::value_type>(
+          features.media, program, "sample_distance", groups.streaming, profile)),
       interact_(program, "interact", groups.streaming, profile),
       apply_textures_(stage_if<decltype(apply_textures_)::value_type>(
           features.textures, program, "apply_textures", groups.streaming, profile)),
+      pass_boundary_(stage_if<decltype(pass_boundary_)::value_type>(
+          features.media, program, "pass_boundary", groups.streaming, profile)),
       first_hit_(program, "first_hit", groups.streaming, profile),
       shade_miss_(stage_if<decltype(shade_miss_)::value_type>(
           features.environment, program, "shade_miss", groups.streaming, profile)),
       shade_emission_(stage_if<decltype(shade_emission_)::value_type>(
           features.area_lights, program, "shade_emission", groups.streaming, profile)),
+      refract_boundary_(stage_if<decltype(refract_boundary_)::value_type>(
+          features.dielectrics, program, "refract_boundary", groups.streaming, profile)),
       direct_light_(stage_if<decltype(direct_light_)::value_type>(
           features.sample_lights, program, "direct_light", groups.streaming, profile)),
       occlusion_(stage_if<decltype(occlusion_)::value_type>(
-          features.sample_lights,
+          features.sample_lights && !features.media,
           program,
           "occlusion",
           features.rays_per_item > 1 ? 1 : groups.traversal,
           profile)),
+      connect_through_media_(stage_if<decltype(connect_through_media_)::value_type>(
+          features.sample_lights && features.media,
+          program,
+          "connect_through_media",
+          groups.traversal,
+          profile)),
       sample_indirect_(program, "sample_indirect", groups.streaming, profile),
+      scatter_medium_(stage_if<decltype(scatter_medium_)::value_type>(
+          features.media_scatter, program, "scatter_medium", groups.streaming, profile)),
       roulette_compact_(program, "roulette_compact", groups.streaming, profile),
       resume_branch_(stage_if<decltype(resume_branch_)::value_type>(
           features.split_levels > 0, program, "resume_branch", groups.streaming, profile)),
@@ -85,7 +108,8 @@ QueueManager::QueueManager(
       accumulate_(program, "accumulate", groups.streaming, profile),
       fold_film_(program, "fold_film", groups.streaming, profile) {}
 
-void QueueManager::render(const Window& window, RenderParams params, Film& film) {
+bool QueueManager::render(
+    const Window& window, RenderParams params, Film& film, const std::function<bool()>& stop) {
     start(window, params);
     uint32_t slots =
         std::min(pool_.slots, static_cast<uint32_t>(window.pixels * window.rows.size()));
@@ -93,16 +117,24 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
     closest_rays_ += slots;
     assign_units_.launch(
         device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.radiances);
-    while (work.active > 0) {
+    uint64_t iteration = 0;
+    uint64_t last_iteration = std::numeric_limits<uint64_t>::max();
+    bool stopping = false;
+    while (work.active > 0 && iteration < last_iteration) {
         generate_rays_.launch(
             device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays,
-            pool_.throughputs, pool_.radiances);
+            pool_.throughputs, pool_.radiances, pool_.media);
         const uint32_t ray_items = (slots + features_.rays_per_item - 1) / features_.rays_per_item;
         intersect_.launch(
             device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
             scene_.textures, scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3],
-            pool_.rays, pool_.ids, pool_.hits);
+            pool_.rays, pool_.media, pool_.ids, pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
+        if (sample_distance_)
+            sample_distance_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.lights, scene_.media,
+                pool_.rays, pool_.media, pool_.hits, pool_.surfaces, pool_.throughputs,
+                pool_.radiances, pool_.ids, pool_.branches);
         interact_.launch(
             device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
             pool_.hits, pool_.surfaces);
@@ -111,6 +143,10 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.textures,
                 scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3], pool_.rays,
                 pool_.hits, pool_.surfaces);
+        if (pass_boundary_)
+            pass_boundary_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
+                pool_.surfaces, pool_.media, pool_.hits, pool_.throughputs);
         first_hit_.launch(
             device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
         if (shade_miss_)
@@ -123,41 +159,64 @@ void QueueManager::render(const Window& window, RenderParams params, Film& film)
                 scene_.textures, scene_.texels[0], scene_.texels[1], scene_.texels[2],
                 scene_.texels[3], pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs,
                 pool_.radiances);
-        if (direct_light_) {
+        if (direct_light_)
             direct_light_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
-                scene_.environment, scene_.textures, scene_.texels[0], scene_.texels[1],
-                scene_.texels[2], scene_.texels[3], pool_.rays, pool_.hits, pool_.surfaces,
-                pool_.throughputs, pool_.ids, pool_.shadows);
+                scene_.environment, scene_.media, scene_.textures, scene_.texels[0],
+                scene_.texels[1], scene_.texels[2], scene_.texels[3], pool_.rays, pool_.hits,
+                pool_.surfaces, pool_.throughputs, pool_.ids, pool_.media, pool_.shadows);
+        if (occlusion_)
             occlusion_->launch(
                 device_, (slots + features_.rays_per_item - 1) / features_.rays_per_item, params_,
                 slots, scene_.nodes, scene_.blocks, scene_.triangles, scene_.textures,
                 scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3],
                 pool_.shadows, pool_.ids, pool_.radiances, pool_.fates);
-        }
+        if (connect_through_media_)
+            connect_through_media_->launch(
+                device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
+                scene_.materials, scene_.media, scene_.textures, scene_.texels[0], scene_.texels[1],
+                scene_.texels[2], scene_.texels[3], pool_.shadows, pool_.ids, pool_.radiances,
+                pool_.fates);
+        if (refract_boundary_)
+            refract_boundary_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,
+                pool_.surfaces, pool_.rays, pool_.media, pool_.hits, pool_.throughputs, pool_.ids);
         sample_indirect_.launch(
             device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays,
-            pool_.hits, pool_.throughputs, pool_.ids, pool_.branches);
+            pool_.hits, pool_.throughputs, pool_.ids, pool_.media, pool_.branches);
+        if (scatter_medium_)
+            scatter_medium_->launch(
+                device_, slots, params_, slots, scene_.media, pool_.surfaces, pool_.media,
+                pool_.rays, pool_.hits, pool_.throughputs, pool_.ids, pool_.branches);
         roulette_compact_.launch(
             device_, slots, params_, slots, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
         if (resume_branch_)
             resume_branch_->launch(
                 device_, slots, params_, slots, pool_.branches, pool_.hits, pool_.rays,
-                pool_.throughputs, pool_.ids, pool_.fates);
+                pool_.throughputs, pool_.ids, pool_.media, pool_.fates);
         accumulate_.launch(
             device_, slots, params_, slots, pool_.hits, pool_.throughputs, pool_.radiances,
             pool_.ids, cells_, cell_flags_);
         work = count_work(slots, work);
-        ++iterations_;
+        ++iteration;
+        if (!stopping && stop()) {
+            stopping = true;
+            last_iteration = iteration + std::max(iteration, grace);
+        }
     }
-    fold_film_.launch(
-        device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
+    const bool whole = work.active == 0;
+    if (whole)
+        fold_film_.launch(
+            device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
     device_.queue.finish();
     profile_.collect();
     counts_.clear();
+    iterations_ += iteration;
+    return whole;
 }
 
 void QueueManager::start(const Window& window, RenderParams params) {
+    image_width_ = params.width;
     params.stride = pool_.stride;
     params.first_pixel = window.first_pixel;
     params.window_pixels = window.pixels;
@@ -178,7 +237,7 @@ void QueueManager::load_compaction() {
         pool_.movers);
     move_paths_.launch(
         device_, 1, params_, pool_.holes, pool_.movers, pool_.rays, pool_.hits, pool_.throughputs,
-        pool_.radiances, pool_.ids, pool_.branches);
+        pool_.radiances, pool_.ids, pool_.media, pool_.branches);
     device_.queue.finish();
 }
 
@@ -201,9 +260,11 @@ QueueManager::Work QueueManager::count_work(uint32_t slots, const Work& before) 
         work.resumed += chunk.resumed;
         if (chunk.runaway_pixel != 0)
             throw Error(
-                "pixel {}, sample {}: the path is still alive after {} scatterings: nothing in "
+                "pixel ({}, {}), sample {}: the path is still alive after {} scatterings: nothing "
+                "in "
                 "the scene absorbs it; lower an albedo, or use --termination depth:D (biased)",
-                chunk.runaway_pixel - 1, chunk.runaway_sample, MAX_SCATTERINGS);
+                (chunk.runaway_pixel - 1) % image_width_, (chunk.runaway_pixel - 1) / image_width_,
+                chunk.runaway_sample, MAX_SCATTERINGS);
     }
     counts_.pop_front();
     closest_rays_ += work.active - work.resumed;
@@ -218,7 +279,7 @@ uint32_t QueueManager::compact(uint32_t slots, uint32_t active) {
         pool_.chunk_states, pool_.holes, pool_.movers);
     move_paths_.launch(
         device_, std::min(active, slots - kept), params_, pool_.holes, pool_.movers, pool_.rays,
-        pool_.hits, pool_.throughputs, pool_.radiances, pool_.ids, pool_.branches);
+        pool_.hits, pool_.throughputs, pool_.radiances, pool_.ids, pool_.media, pool_.branches);
     return kept;
 }
 

@@ -10,6 +10,7 @@
 #include "wavefront/stage.h"
 
 #include <deque>
+#include <functional>
 #include <optional>
 
 namespace wavepath {
@@ -53,8 +54,14 @@ class QueueManager {
     static std::vector<std::string> kernel_files(const Features& features);
 
     // Takes the window's samples and folds them into the film. `params` says all but the window.
+    // `stop` is asked every iteration. From when it says true the window gets as many more as it
+    // has had, or 1000: the return value says whether it is whole; if not, the film is as before.
     // Throws Error for a path of MAX_SCATTERINGS.
-    void render(const Window& window, RenderParams params, Film& film);
+    bool render(
+        const Window& window,
+        RenderParams params,
+        Film& film,
+        const std::function<bool()>& stop = [] { return false; });
 
     // Loads the kernels of the compaction, which a short render does not reach.
     void load_compaction();
@@ -72,6 +79,7 @@ class QueueManager {
     using Plan = Array<PlanRow>;
     using Materials = Array<DeviceMaterial>;
     using Lights = Array<DeviceLight>;
+    using Media = Array<DeviceMedium>;
     using Map = Array<EnvironmentEntry>;
     using Textures = Array<DeviceTexture>;
     using Nodes = Array<BvhNode>;
@@ -110,9 +118,10 @@ class QueueManager {
     std::deque<Count> counts_;
     uint64_t iterations_ = 0;
     uint64_t closest_rays_ = 0;
+    uint32_t image_width_ = 1;
 
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;
-    Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats> generate_rays_;
+    Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats, Floats> generate_rays_;
     // Textures and four pages of texels are TEXTURE_PARAMETERS of materials/texture.cl.
     Stage<
         Params,
@@ -126,9 +135,25 @@ class QueueManager {
         Uints,
         Uints,
         Floats,
+        Floats,
         Uints,
         Floats>
         intersect_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Lights,
+        Media,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Uints,
+        Floats>>
+        sample_distance_;
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
     std::optional<Stage<
         Params,
@@ -144,6 +169,8 @@ class QueueManager {
         Floats,
         Floats>>
         apply_textures_;
+    std::optional<Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats, Floats, Floats>>
+        pass_boundary_;
     Stage<Params, cl_uint, Floats, Floats, Uints, Floats> first_hit_;
     std::optional<Stage<Params, cl_uint, Map, Floats, Floats, Floats, Floats>> shade_miss_;
     std::optional<Stage<
@@ -168,8 +195,22 @@ class QueueManager {
         cl_uint,
         Floats,
         Materials,
+        Media,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Uints>>
+        refract_boundary_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Materials,
         Lights,
         Map,
+        Media,
         Textures,
         Uints,
         Uints,
@@ -180,6 +221,7 @@ class QueueManager {
         Floats,
         Floats,
         Uints,
+        Floats,
         Floats>>
         direct_light_;
     std::optional<Stage<
@@ -198,14 +240,35 @@ class QueueManager {
         Floats,
         Fates>>
         occlusion_;
-    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats>
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Nodes,
+        Blocks,
+        Floats,
+        Materials,
+        Media,
+        Textures,
+        Uints,
+        Uints,
+        Uints,
+        Uints,
+        Floats,
+        Uints,
+        Floats,
+        Fates>>
+        connect_through_media_;
+    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats, Floats>
         sample_indirect_;
+    std::optional<
+        Stage<Params, cl_uint, Media, Floats, Floats, Floats, Floats, Floats, Uints, Floats>>
+        scatter_medium_;
     Stage<Params, cl_uint, Uints, Floats, Floats, Fates> roulette_compact_;
-    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Fates>>
+    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Floats, Fates>>
         resume_branch_;
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
-    Stage<Params, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats> move_paths_;
+    Stage<Params, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats, Floats> move_paths_;
     Stage<Params, cl_uint, Floats, Floats, Floats, Uints, Floats, Uints> accumulate_;
     Stage<Params, Plan, Floats, Uints, Floats, Uints> fold_film_;
 };

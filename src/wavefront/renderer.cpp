@@ -32,18 +32,19 @@ void check_lights(
     const Scene& scene,
     const NormalisedScene& geometry,
     const LightTables& tables,
+    const MediaTables& media,
     const Method& method,
     RenderResult& result) {
     const bool area =
         std::ranges::any_of(tables.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
     const bool punctual = !geometry.lights.empty();
-    if (!area && !punctual && !scene.environment)
+    if (!area && !punctual && !scene.environment && !media.emit)
         throw Error(
             "{}: no light; add an emissive material, a KHR_lights_punctual light, --env or "
             "--env-radiance",
             scene.name);
     if (method.sample_lights || !punctual) return;
-    if (!area && !scene.environment)
+    if (!area && !scene.environment && !media.emit)
         throw Error(
             "{}: --method {} cannot find punctual lights, and the scene has no other; use direct, "
             "direct-bsdf or mis",
@@ -67,7 +68,9 @@ RenderParams scene_params(
                       : settings.termination.kind == TerminationKind::roulette_constant ? 2
                                                                                         : 0;
     params.survival = settings.termination.survival;
-    params.splits = settings.splits;
+    params.splits = settings.splits.reflections;
+    params.stops = settings.splits.stops;
+    params.stop_directions = settings.splits.directions;
     params.split_depth = settings.split_depth;
     params.light_count = static_cast<cl_uint>(tables.lights.size());
     params.environment_pmf = tables.environment_pmf;
@@ -116,7 +119,7 @@ class Schedule {
     Schedule(const RenderSettings& settings, uint32_t pool, uint64_t max_cells)
         : pixels_(uint64_t{settings.width} * settings.height),
           plan_(settings.samples, pixels_),
-          least_passes_((refills * pool + pixels_ - 1) / pixels_),
+          least_passes_(settings.samples > 0 ? (refills * pool + pixels_ - 1) / pixels_ : 1),
           max_cells_(max_cells),
           seconds_(settings.seconds) {}
 
@@ -131,7 +134,7 @@ class Schedule {
             plan_.take(std::min(fit, std::max(least_passes_, static_cast<uint64_t>(passes))));
         passes_ = rows.size();
         std::vector<Window> windows;
-        for (uint64_t first = 0; first < pixels_ && !rows.empty(); first += max_cells_)
+        for (uint64_t first = 0; first < pixels_; first += max_cells_)
             windows.push_back(
                 {static_cast<uint32_t>(first),
                  static_cast<uint32_t>(std::min(pixels_ - first, max_cells_)), rows});
@@ -143,7 +146,8 @@ class Schedule {
     }
 
   private:
-    // Units a slot at the least: the pool runs empty at the end of a window.
+    // Units a slot at the least, for the pool runs empty at the end of a window; an open-ended
+    // render of a small picture would overshoot with them.
     static constexpr uint64_t refills = 4;
 
     uint64_t pixels_;
@@ -157,22 +161,40 @@ class Schedule {
 
 }  // namespace
 
+std::string RenderSettings::bias() const {
+    const std::string cut = termination.bias();
+    if (target_error <= 0) return cut;
+    return "stopped by --target-error: a stopping rule that reads the samples is slightly biased" +
+           (cut.empty() ? "" : "; " + cut);
+}
+
 RenderResult render(
     const Device& device,
     const Scene& scene,
     const RenderSettings& settings,
-    const std::function<bool(const RenderProgress&)>& progress) {
+    const std::function<void(const RenderProgress&)>& progress,
+    const std::function<bool()>& stop) {
     RenderResult result;
     Stopwatch watch;
     const NormalisedScene geometry = normalise(scene);
     const LightTables tables = build_light_tables(
         scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
-    check_lights(scene, geometry, tables, settings.method, result);
+    const MediaTables media = build_media_tables(scene, geometry);
+    result.warnings = media.warnings;
+    check_lights(scene, geometry, tables, media, settings.method, result);
+    if (media.scatter && settings.splits.stops > 1 &&
+        settings.method.distances == Distances::exponential)
+        throw Error(
+            "--splits with more than one stop: --distance exponential has one or none; choose "
+            "another");
     const TextureTables textures =
         build_texture_tables(scene, worn_materials(scene, geometry), device.info.max_allocation);
-    Features features = features_of(
-        scene, geometry, tables, textures, settings.method,
-        settings.splits > 1 ? settings.split_depth : 0, settings.sobol);
+    Features features =
+        features_of(scene, geometry, tables, media, textures, settings.method, settings.sobol);
+    const bool branches = settings.splits.reflections > 1 ||
+                          (media.scatter && (settings.splits.directions > 1 ||
+                                             features.distances != Distances::exponential));
+    features.split_levels = branches ? settings.split_depth : 0;
     result.times.normalise = watch.lap();
     Bvh bvh = build_bvh(geometry.positions);
     if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
@@ -181,10 +203,11 @@ RenderResult render(
     // for memory together.
     if (device.info.is_cpu && bvh.nodes.size() >= stream_nodes)
         features.rays_per_item = stream_rays;
-    const SceneBuffers buffers(device, scene, geometry, bvh, tables, textures);
+    const SceneBuffers buffers(device, scene, geometry, bvh, tables, media, textures);
     result.times.upload = watch.lap();
 
-    const RenderParams params = scene_params(scene, geometry, tables, settings);
+    RenderParams params = scene_params(scene, geometry, tables, settings);
+    params.camera_media = media_at_camera(scene, geometry, media, params);
     const cl::Program program = build_program(
         device, assemble_source(features.defines(), QueueManager::kernel_files(features)),
         &result.program);
@@ -212,18 +235,26 @@ RenderResult render(
     Schedule schedule(settings, pool, max_cells);
     const SamplePlan& plan = schedule.plan();
     const auto relative_error = [&] {
-        return develop(device, film, plan.samples_taken(), plan.batches_closed()).relative_error;
+        return develop(device, film, result.samples, result.batches).relative_error;
     };
     while (!plan.done()) {
-        for (const Window& window : schedule.next(result.times.render))
-            queues.render(window, params, film);
+        const std::vector<Window> windows = schedule.next(result.times.render);
+        // Once one window is in the film, the passes have to be finished everywhere.
+        const bool whole = queues.render(windows.front(), params, film, stop);
+        for (std::size_t i = 1; whole && i < windows.size(); ++i)
+            queues.render(windows[i], params, film);
         const double seconds = watch.lap();
         schedule.took(seconds);
         result.times.render += seconds;
-        if (progress) {
+        if (whole) {
+            result.samples = plan.samples_taken();
+            result.batches = plan.batches_closed();
+        }
+        result.interrupted = !whole || (!plan.done() && stop());
+        if (progress && whole) {
             const RayCounts rays = queues.ray_counts();
-            result.interrupted = !progress(
-                {plan.samples_taken(), settings.samples, result.times.render,
+            progress(
+                {result.samples, settings.samples, result.times.render,
                  rays.closest + rays.connections, relative_error});
         }
         const bool timed_out = settings.seconds > 0 && result.times.render >= settings.seconds;
@@ -232,8 +263,6 @@ RenderResult render(
         if (result.interrupted || timed_out || on_target) break;
     }
 
-    result.samples = schedule.plan().samples_taken();
-    result.batches = schedule.plan().batches_closed();
     result.film = develop(device, film, result.samples, result.batches);
     result.profile = profile.rows();
     result.device_clock = profile.device_clock();

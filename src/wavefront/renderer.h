@@ -23,12 +23,15 @@ struct RenderSettings {
     uint32_t seed = 1;
     Method method = method_named("mis");
     Termination termination;
-    uint32_t splits = 1;
+    Splits splits;
     uint32_t split_depth = 1;
     bool sobol = true;
     uint32_t pool = 0;  // path slots; 0: the device's default
     WorkGroups work_groups;
     std::optional<uint32_t> count_lag;  // QueueManager's; none: 0 on a CPU, 1 elsewhere
+
+    // What the settings do to the expected value; empty: nothing.
+    std::string bias() const;
 };
 
 struct RenderTimes {
@@ -61,13 +64,16 @@ struct RenderResult {
     bool interrupted = false;
 };
 
-// `progress` is called after every window; it returns false to stop there.
+// `progress` is called after every pass over the picture. `stop` is asked all the time: once it
+// says true the render ends with its pass, or without it where a path does not end
+// (QueueManager::render), and the result is `interrupted`.
 // Throws Error where the scene has no light, or none that the method can find; where the device
 // lacks memory, before rendering; for a path that never ends.
 RenderResult render(
     const Device& device,
     const Scene& scene,
     const RenderSettings& settings,
-    const std::function<bool(const RenderProgress&)>& progress = {});
+    const std::function<void(const RenderProgress&)>& progress = {},
+    const std::function<bool()>& stop = [] { return false; });
 
 }  // namespace wavepath

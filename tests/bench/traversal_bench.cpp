@@ -43,7 +43,7 @@ INLINE void stream_rays(
     do {
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], 0);
+            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
         }
         stream_step(&stream, nodes, blocks, &cover, any);
         for (int k = 0; k < stream.ended; ++k) {
@@ -64,7 +64,8 @@ kernel void closest(
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
         const Cover cover = full_cover();
-        hits[i] = closest_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], &cover);
+        hits[i] = closest_hit(
+            nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), &cover);
         return;
     }
     stream_rays(count, rays, nodes, blocks, hits, i, 0);

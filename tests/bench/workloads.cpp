@@ -62,8 +62,10 @@ std::vector<TestRay> camera_rays(const Workload& workload, unsigned size, std::m
     std::vector<TestRay> rays;
     for (unsigned pixel = 0; pixel < size * size; ++pixel)
         for (int sample = 0; sample < 2; ++sample) {
-            const double x = (2 * (pixel % size + uniform(random)) / size - 1) * half;
-            const double y = (1 - 2 * (pixel / size + uniform(random)) / size) * half;
+            const unsigned column = pixel % size;
+            const unsigned row = pixel / size;
+            const double x = (2 * (column + uniform(random)) / size - 1) * half;
+            const double y = (1 - 2 * (row + uniform(random)) / size) * half;
             Point d{};
             for (std::size_t k = 0; k < 3; ++k) d[k] = forward[k] + x * right[k] + y * up[k];
             rays.push_back(make_ray(e, normalised(d), std::numeric_limits<float>::infinity()));
@@ -126,8 +128,10 @@ Workload terrain_workload(unsigned vertices) {
          {211, .005, .2}}};
     std::vector<std::array<float, 3>> grid;
     for (unsigned i = 0; i < vertices * vertices; ++i) {
-        const double x = -2 + 4.0 * (i / vertices) / (vertices - 1);
-        const double z = -2 + 4.0 * (i % vertices) / (vertices - 1);
+        const unsigned row = i / vertices;
+        const unsigned column = i % vertices;
+        const double x = -2 + 4.0 * row / (vertices - 1);
+        const double z = -2 + 4.0 * column / (vertices - 1);
         double y = 0;
         for (const Wave& w : waves)
             y += w.amplitude * std::sin(w.frequency * x + w.phase) *

@@ -55,7 +55,7 @@ device_info(cl_device_id, cl_device_info name, size_t size, void* value, size_t*
         return CL_INVALID_DEVICE;
     }
     const cl_platform_id id = &platform;
-    std::memcpy(value, &id, sizeof(id));
+    std::memcpy(value, &id, sizeof(cl_platform_id));
     return CL_SUCCESS;
 }
 

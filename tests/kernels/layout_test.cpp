@@ -28,7 +28,15 @@ namespace {
     FIELD(DeviceMaterial, emission_g) FIELD(DeviceMaterial, specular)                             \
     FIELD(DeviceMaterial, base_b) FIELD(DeviceMaterial, f0_b) FIELD(DeviceMaterial, emission_b)   \
     FIELD(DeviceMaterial, alpha) FIELD(DeviceMaterial, double_sided)                              \
-    FIELD(DeviceMaterial, transmission) FIELD(DeviceMaterial, padding)                                                                \
+    FIELD(DeviceMaterial, boundary) FIELD(DeviceMaterial, medium)                                 \
+    FIELD(DeviceMaterial, transmission)                                                           \
+    STRUCT(DeviceMedium)                                                                          \
+    FIELD(DeviceMedium, sigma_t_r) FIELD(DeviceMedium, sigma_s_r)                                 \
+    FIELD(DeviceMedium, emission_r) FIELD(DeviceMedium, anisotropy)                               \
+    FIELD(DeviceMedium, sigma_t_g) FIELD(DeviceMedium, sigma_s_g)                                 \
+    FIELD(DeviceMedium, emission_g) FIELD(DeviceMedium, ior)                                      \
+    FIELD(DeviceMedium, sigma_t_b) FIELD(DeviceMedium, sigma_s_b)                                 \
+    FIELD(DeviceMedium, emission_b) FIELD(DeviceMedium, padding)                                  \
     STRUCT(DeviceLight)                                                                           \
     FIELD(DeviceLight, alias_threshold) FIELD(DeviceLight, alias) FIELD(DeviceLight, pmf)         \
     FIELD(DeviceLight, kind) FIELD(DeviceLight, primitive) FIELD(DeviceLight, area)               \
@@ -57,6 +65,8 @@ namespace {
     FIELD(RenderParams, environment_width) FIELD(RenderParams, environment_height)                \
     FIELD(RenderParams, environment_r) FIELD(RenderParams, environment_g)                         \
     FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)                       \
+    FIELD(RenderParams, camera_media) FIELD(RenderParams, stops)                                  \
+    FIELD(RenderParams, stop_directions) FIELD(RenderParams, padding)                                \
     STRUCT(PlanRow)                                                                               \
     FIELD(PlanRow, first_sample) FIELD(PlanRow, samples) FIELD(PlanRow, batch_start)              \
     FIELD(PlanRow, closes_batch)                                                                  \

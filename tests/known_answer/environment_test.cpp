@@ -13,7 +13,7 @@ constexpr uint32_t width = 16;
 constexpr uint32_t height = 8;
 
 Environment map_of(float value) {
-    return {grey(1), width, height, std::vector<float>(std::size_t{3} * width * height, value)};
+    return {grey(1), width, height, std::vector<float>(std::size_t{3} * width * height, value), ""};
 }
 
 // Directions chosen all round the sphere, by area, waste half of themselves: 1 % has to do there.

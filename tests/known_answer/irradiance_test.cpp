@@ -163,12 +163,12 @@ TEST(Irradiance, HasThePredictedVariance) {
         for (const auto& [method, predicted] :
              {std::pair{"path", row.path}, {"direct", row.direct}, {"mis", row.mis}}) {
             SCOPED_TRACE(fmt::format("{}, {}", row.lights.name, method));
-            RenderSettings settings = square_settings(method, view.camera, 512, 1);
+            RenderSettings settings = square_settings(method, view.camera, 1024, 1);
             settings.sobol = false;
             const double mean = row.receiver.irradiance / pi;
             EXPECT_TRUE(has_mean(
                 sample_variance(render_scene(view.scene, settings)), predicted * mean * mean,
-                {.bias = 0.25, .truth_error = 1e-4}));
+                {.bias = 0.125, .truth_error = 1e-4}));
         }
     }
 }

@@ -101,15 +101,41 @@ TEST(Runaway, StopsWithItsPixelAndSample) {
     replace_in(folder / "stages/sample_indirect.cl", "params.max_scatterings", "MAX_SCATTERINGS");
     const EnvironmentVariable kernels("WAVEPATH_KERNELS", folder.path().string());
     const std::string message = trapped_message();
-    EXPECT_TRUE(message.starts_with("pixel 0, sample 0: the path is still alive after")) << message;
+    EXPECT_TRUE(message.starts_with("pixel (0, 0), sample 0: the path is still alive after"))
+        << message;
 }
 
 TEST(Runaway, StopsAfterAMillionScatterings_long) {
     WAVEPATH_SKIP_UNLESS_LONG();
     const std::string message = trapped_message();
-    EXPECT_TRUE(
-        message.starts_with("pixel 0, sample 0: the path is still alive after 1000000 scatterings"))
+    EXPECT_TRUE(message.starts_with(
+        "pixel (0, 0), sample 0: the path is still alive after 1000000 scatterings"))
         << message;
+}
+
+TEST(Interruption, DoesNotWaitForAPathThatNeverEnds) {
+    RenderSettings settings = square_settings("bsdf", perspective({0, 0, 0}, {1, 0, 0}, 1), 1, 1);
+    settings.termination = {TerminationKind::zero, 0, 1};
+    const RenderResult result = render(test_device(), trap(), settings, {}, [] { return true; });
+    EXPECT_TRUE(result.interrupted);
+    EXPECT_EQ(result.samples, 0U);
+    EXPECT_LE(result.iterations, 1001U);
+}
+
+TEST(Interruption, LeavesWholePasses) {
+    Scene scene = scene_named("box");
+    add_box(scene, lambert(grey(0.5F), grey(1)), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
+    RenderSettings settings =
+        square_settings("path", perspective({0, 0, 0}, {1, 0, 0}, 1), 8, 4096);
+    settings.pool = 64;
+    const RenderResult stopped = render(test_device(), scene, settings, {}, [] { return true; });
+    EXPECT_TRUE(stopped.interrupted);
+    EXPECT_LT(stopped.samples, settings.samples);
+    ASSERT_GT(stopped.samples, 0U);
+    settings.samples = stopped.samples;
+    const RenderResult whole = render(test_device(), scene, settings);
+    EXPECT_FALSE(whole.interrupted);
+    EXPECT_EQ(whole.film.image.channels.at("R"), stopped.film.image.channels.at("R"));
 }
 
 }  // namespace

@@ -128,7 +128,8 @@ Primitive& add_triangles(
     primitive.indices = std::move(indices);
     primitive.material = static_cast<uint32_t>(scene.materials.size());
     scene.materials.push_back(material);
-    scene.instances.push_back({static_cast<uint32_t>(scene.primitives.size()), identity_matrix});
+    const auto primitive_index = static_cast<uint32_t>(scene.primitives.size());
+    scene.instances.push_back({primitive_index, identity_matrix, primitive_index});
     scene.primitives.push_back(std::move(primitive));
     return scene.primitives.back();
 }

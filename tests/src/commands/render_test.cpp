@@ -1,37 +1,15 @@
 // The program as a user meets it: exit codes, one line for what is wrong, nothing half-written.
 #include "film/exr_writer.h"
-#include "support/temporary_folder.h"
-
-#include <gtest/gtest.h>
-#include <sys/wait.h>
+#include "support/command.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 namespace wavepath {
 namespace {
 
-const std::string cornell_box = WAVEPATH_SOURCE_DIR "/scenes/cornell_box/scene.gltf";
-
-struct Outcome {
-    int exit_code;
-    std::string words;  // what it printed, both streams
-};
-
-class RenderCommand : public testing::Test {
+class RenderCommand : public CommandTest {
   protected:
-    Outcome run(const std::string& arguments) const {
-        const std::string log = path("log");
-        const int status =
-            std::system(("{ " WAVEPATH_BINARY " " + arguments + "; } > " + log + " 2>&1").c_str());
-        std::ifstream file(log);
-        return {WEXITSTATUS(status), std::string(std::istreambuf_iterator<char>(file), {})};
-    }
-
-    std::string path(const std::string& name) const { return (folder.path() / name).string(); }
-
     // It fails with one line that holds `words`, and leaves no picture.
     void expect_refused(const std::string& arguments, const std::string& words) const {
         SCOPED_TRACE(arguments);
@@ -42,8 +20,6 @@ class RenderCommand : public testing::Test {
         EXPECT_EQ(std::ranges::count(outcome.words, '\n'), 1) << outcome.words;
         EXPECT_FALSE(std::filesystem::exists(picture));
     }
-
-    TemporaryFolder folder;
 };
 
 TEST_F(RenderCommand, WritesPicturesAndAReport) {
@@ -58,9 +34,16 @@ TEST_F(RenderCommand, WritesPicturesAndAReport) {
     EXPECT_EQ(image.metadata.at("wavepath.samples"), "8");
     EXPECT_EQ(image.metadata.at("wavepath.bias"), "none");
     EXPECT_TRUE(std::filesystem::exists(path("a.png")));
-    std::ifstream file(path("a.json"));
-    const auto report = nlohmann::json::parse(file);
+    const nlohmann::json report = json("a.json");
     EXPECT_EQ(report["schema"], 1);
+    EXPECT_EQ(report["scene"]["name"], cornell_box);
+    EXPECT_EQ(report["scene"]["triangles"], 36);
+    EXPECT_EQ(report["bias"], "");
+    EXPECT_TRUE(report["program_build"]["from_own_cache"].is_boolean());
+    EXPECT_EQ(report["samples_per_pixel"], 8);
+    EXPECT_GT(report["memory_bytes"]["host_peak"], report["memory_bytes"]["device_film"]);
+    // both say alike what was asked for
+    EXPECT_EQ(nlohmann::json::parse(image.metadata.at("wavepath.settings")), report["settings"]);
     EXPECT_EQ(report["settings"]["seed"], 3);
     EXPECT_EQ(report["nonfinite_samples"], 0);
     uint64_t paths = 0;
@@ -73,11 +56,51 @@ TEST_F(RenderCommand, NamesTheBiasOfADepthCut) {
     EXPECT_NE(read_exr(path("d.exr")).metadata.at("wavepath.bias").find("2"), std::string::npos);
 }
 
+TEST_F(RenderCommand, NamesTheMethodsOfMediaWhereThereAreMedia) {
+    const std::string slab = WAVEPATH_SOURCE_DIR "/scenes/slab/scene.gltf";
+    const std::string tiny = " --size 4x4 --spp 1 --env-radiance 1,1,1 --direction uniform";
+    run("render " + slab + tiny + " -o " + path("m.exr") + " --json " + path("m.json"));
+    const auto settings = json("m.json")["settings"];
+    EXPECT_EQ(settings["distance"], "exponential");
+    EXPECT_EQ(settings["direction"], "uniform");
+    EXPECT_EQ(
+        nlohmann::json::parse(read_exr(path("m.exr")).metadata.at("wavepath.settings")), settings);
+    run("render " + cornell_box + tiny + " -o " + path("n.exr") + " --json " + path("n.json"));
+    EXPECT_FALSE(json("n.json")["settings"].contains("direction"));
+}
+
+TEST_F(RenderCommand, StopsAtTheErrorAskedAndNamesItsBias) {
+    const Outcome outcome =
+        run("render " + cornell_box + " --size 16x16 --pool 256 --target-error 0.2 --quiet -o " +
+            path("a.exr") + " --json " + path("a.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.words;
+    const nlohmann::json report = json("a.json");
+    EXPECT_LT(report["relative_error"], 0.2);
+    EXPECT_NE(report["bias"].get<std::string>().find("--target-error"), std::string::npos);
+    EXPECT_EQ(read_exr(path("a.exr")).metadata.at("wavepath.bias"), report["bias"]);
+}
+
+TEST_F(RenderCommand, StopsAtTheTimeAsked) {
+    const Outcome outcome =
+        run("render " + cornell_box + " --size 16x16 --pool 256 --time 0.2 --quiet -o " +
+            path("a.exr") + " --json " + path("a.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.words;
+    const nlohmann::json report = json("a.json");
+    EXPECT_GE(report["times_s"]["render"], 0.2);
+    EXPECT_GT(report["samples_per_pixel"], 0);
+    EXPECT_EQ(report["interrupted"], false);
+    EXPECT_EQ(
+        read_exr(path("a.exr")).metadata.at("wavepath.samples"),
+        std::to_string(report["samples_per_pixel"].get<uint64_t>()));
+}
+
 TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(path("nothing.gltf"), "nothing.gltf");
     expect_refused(cornell_box + " --size 0x8", "--size 0x8");
     expect_refused(cornell_box + " --size 8", "--size 8");
-    expect_refused(cornell_box + " --spp 0", "--spp 0");
+    expect_refused(cornell_box + " --spp 0", "1 to 4294967295");
+    expect_refused(cornell_box + " --spp -3", "Value -3");
+    expect_refused(cornell_box + " --seed -1", "0 to 4294967295");
     expect_refused(cornell_box + " --spp 4 --time 1", "give one of them");
     expect_refused(cornell_box + " --exposure nan", "--exposure nan");
     expect_refused(cornell_box + " --env-radiance 1e39,1,1", "--env-radiance 1e39,1,1");
@@ -85,8 +108,10 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --target-error -1", "--target-error");
     expect_refused(cornell_box + " --method photon", "--method");
     expect_refused(cornell_box + " --termination depth:x", "--termination depth:x");
-    expect_refused(cornell_box + " --splits 2,2", "--splits 2,2");
+    expect_refused(cornell_box + " --splits 2", "--splits 2");
+    expect_refused(cornell_box + " --splits 2,0", "--splits 2,0");
     expect_refused(cornell_box + " --camera nobody", "--camera nobody");
+    expect_refused(cornell_box + " --scene nobody", "--scene nobody");
     expect_refused(cornell_box + " --look-at 0,0,0,0,0,0", "--look-at");
     expect_refused(cornell_box + " --env-radiance 1,2", "--env-radiance 1,2");
     expect_refused(cornell_box + " --env " + path("no.hdr"), "no.hdr");
@@ -100,6 +125,15 @@ TEST_F(RenderCommand, RefusesOutputsItCannotWriteBeforeRendering) {
     const Outcome kind = run("render " + cornell_box + " -o " + path("a.jpg"));
     EXPECT_EQ(kind.exit_code, 1);
     EXPECT_NE(kind.words.find(".exr or .png"), std::string::npos) << kind.words;
+}
+
+TEST_F(RenderCommand, RefusesAFolderWithoutKernels) {
+    const std::string arguments =
+        "render " + cornell_box + " --size 4x4 --spp 1 -o " + path("a.exr");
+    const Outcome outcome = run(arguments, "WAVEPATH_KERNELS=" + folder.path().string());
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.words.find("unset WAVEPATH_KERNELS"), std::string::npos) << outcome.words;
+    EXPECT_EQ(run(arguments, "WAVEPATH_KERNELS=").exit_code, 0);
 }
 
 TEST_F(RenderCommand, RefusesASceneWithoutLight) {

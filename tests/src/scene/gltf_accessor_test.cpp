@@ -186,7 +186,7 @@ constexpr Broken broken_accessors[] = {
      },
      "POSITION: 4000000000 rows without a bufferView are more than the 16777216 allowed"},
     {"type", [](Json& root) { root["accessors"][0]["type"] = "VEC2"; },
-     "accessor 0 is no vector of 3"},
+     "accessor 0 does not hold 3 numbers a row"},
     {"component_type", [](Json& root) { root["accessors"][0]["componentType"] = 5130; },
      "accessor 0 has component type 5130"},
     {"index_component_type", [](Json& root) { root["accessors"][1]["componentType"] = 5122; },

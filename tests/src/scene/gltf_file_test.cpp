@@ -132,16 +132,17 @@ TEST(GltfFile, ChecksTheVersion) {
 TEST(GltfFile, NamesRequiredExtensionsBeforeAnythingElse) {
     GltfBuilder gltf = triangle();
     for (const char* supported :
-         {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
-          "KHR_materials_specular", "KHR_mesh_quantization"})
+         {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+          "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
+          "KHR_materials_specular", "KHR_materials_variants", "KHR_mesh_quantization",
+          "KHR_node_visibility"})
         gltf.root["extensionsRequired"].push_back(supported);
     EXPECT_EQ(load_error(gltf), "");
-    gltf.root["extensionsRequired"].push_back("KHR_draco_mesh_compression");
+    gltf.root["extensionsRequired"].push_back("KHR_texture_basisu");
     gltf.root["meshes"][0]["primitives"][0]["indices"] = 77;  // what tinygltf itself would report
     EXPECT_EQ(
         load_error(gltf),
-        "scene.gltf: extensionsRequired: KHR_draco_mesh_compression is not supported; export "
-        "without it");
+        "scene.gltf: extensionsRequired: KHR_texture_basisu is not supported; export without it");
 }
 
 TEST(GltfFile, BoundsWhatItQuotes) {

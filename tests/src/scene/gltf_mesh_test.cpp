@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace wavepath {
 namespace {
 
@@ -139,6 +141,92 @@ TEST(GltfMesh, ReadsColorsAndClampsThem) {
                 "VEC4", {65535, 0, 13107, 9, 0, 0, 0, 9, 0, 0, 0, 9}, {{"normalized", true}});
         }),
         (std::vector<float>{1, 0, 0.2F, 0, 0, 0, 0, 0, 0}));
+}
+
+// A triangle with two morph targets: the first moves x of vertex 1, the second z of vertex 0 alone,
+// as sparse rows without a buffer view, and turns all normals to +X.
+void add_morphed(GltfBuilder& gltf) {
+    const int ones = gltf.accessor<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 0, 0});
+    const int turn = gltf.accessor<float>("VEC3", {1, 0, -1, 1, 0, -1, 1, 0, -1});
+    const int sparse = gltf.add(
+        "accessors",
+        {{"componentType", 5126},
+         {"count", 3},
+         {"type", "VEC3"},
+         {"sparse",
+          {{"count", 1},
+           {"indices", {{"bufferView", gltf.view<std::uint8_t>({0})}, {"componentType", 5121}}},
+           {"values", {{"bufferView", gltf.view<float>({0, 0, 1})}}}}}});
+    gltf.object(
+        {{"attributes",
+          {{"POSITION", gltf.triangle_positions()},
+           {"NORMAL", gltf.accessor<float>("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1})}}},
+         {"targets", {{{"POSITION", ones}}, {{"POSITION", sparse}, {"NORMAL", turn}}}}});
+}
+
+TEST(GltfMesh, MorphsByTheWeightsOfTheMesh) {
+    GltfBuilder gltf;
+    add_morphed(gltf);
+    EXPECT_THAT(load(gltf).primitives.at(0).positions, ElementsAre(0, 0, 0, 1, 0, 0, 0, 1, 0))
+        << "no weights: the base shape";
+    gltf.root["meshes"][0]["weights"] = {-0.5, 2};
+    const Scene scene = load(gltf);
+    EXPECT_THAT(scene.primitives.at(0).positions, ElementsAre(0, 0, 2, 0.5F, 0, 0, 0, 1, 0));
+    EXPECT_FLOAT_EQ(scene.primitives.at(0).normals[0], 2 / std::sqrt(5.0F)) << "(2, 0, -1)";
+    EXPECT_THAT(scene.ignored, IsEmpty());
+}
+
+TEST(GltfMesh, MorphsByTheWeightsOfTheNodeFirst) {
+    GltfBuilder gltf;
+    add_morphed(gltf);
+    gltf.root["meshes"][0]["weights"] = {0, 2};
+    gltf.root["nodes"][0]["weights"] = {1, 0};
+    gltf.node({{"mesh", 0}});
+    gltf.node({{"mesh", 0}, {"weights", {1, 0}}});
+    const Scene scene = load(gltf);
+    ASSERT_EQ(scene.instances.size(), 3U);
+    EXPECT_EQ(scene.primitives.size(), 2U) << "one of each shape";
+    EXPECT_EQ(scene.instances[0].primitive, scene.instances[2].primitive);
+    EXPECT_THAT(scene.primitives[0].positions, ElementsAre(0, 0, 0, 2, 0, 0, 0, 1, 0));
+    EXPECT_THAT(scene.primitives[1].positions, ElementsAre(0, 0, 2, 1, 0, 0, 0, 1, 0));
+}
+
+TEST(GltfMesh, MorphsColorsBeforeClampingThem) {
+    GltfBuilder gltf;
+    const int colors = gltf.accessor<float>("VEC3", {0, 0.5F, 1, 0, 0, 0, 1, 1, 1});
+    const int targets = gltf.accessor<float>("VEC3", {1, -1, 1, 0, 0, 0, 0, 0, -0.5F});
+    gltf.object(
+        {{"attributes", {{"POSITION", gltf.triangle_positions()}, {"COLOR_0", colors}}},
+         {"targets", {{{"COLOR_0", targets}}}}});
+    gltf.root["meshes"][0]["weights"] = {1};
+    EXPECT_THAT(load(gltf).primitives.at(0).colors, ElementsAre(1, 0, 1, 0, 0, 0, 1, 1, 0.5F));
+}
+
+TEST(GltfMesh, RejectsBrokenMorphTargets) {
+    const auto error = [](const Json& weights, const auto& breaks) {
+        GltfBuilder gltf;
+        add_morphed(gltf);
+        gltf.root["nodes"][0]["weights"] = weights;
+        breaks(gltf, gltf.root["meshes"][0]["primitives"][0]["targets"]);
+        return load_error(gltf);
+    };
+    EXPECT_EQ(
+        error({1}, [](auto&, Json&) {}),
+        "scene.gltf: mesh 0, primitive 0: has 2 morph targets, but 1 weights; export again");
+    EXPECT_EQ(
+        error(
+            {0, 1},
+            [](auto& gltf, Json& targets) {
+                targets[1]["POSITION"] = gltf.template accessor<float>("VEC3", {0, 0, 0});
+            }),
+        "scene.gltf: mesh 0, primitive 0, morph target 1, POSITION: has 1 rows, the mesh 3; repair "
+        "the mesh and export again");
+    EXPECT_THAT(
+        error({1e39, 0}, [](auto&, Json&) {}),
+        HasSubstr("morph target 0, POSITION: weight 1e+39 moves row 1 out of range"));
+    EXPECT_THAT(
+        error({1, 0}, [](auto&, Json& targets) { targets[0]["POSITION"] = 99; }),
+        HasSubstr("morph target 0, POSITION: refers to accessor 99"));
 }
 
 TEST(GltfMesh, RejectsIntegerColorsThatAreNotNormalized) {

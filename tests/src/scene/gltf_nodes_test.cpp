@@ -121,6 +121,64 @@ TEST(GltfNodes, ChoosesTheScene) {
         "or export again");
 }
 
+TEST(GltfNodes, ChoosesTheSceneAskedFor) {
+    GltfBuilder gltf;
+    gltf.triangle();
+    gltf.root["nodes"] = {
+        {{"mesh", 0}, {"translation", {1, 0, 0}}}, {{"mesh", 0}, {"translation", {2, 0, 0}}}};
+    gltf.root["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}, {"name", "0"}}, {{"name", "empty"}}};
+    const TemporaryFolder folder;
+    const auto file = folder.write("scene.gltf", gltf.text());
+    EXPECT_THAT(places(load_gltf(file, "1")), ElementsAre(2)) << "by index";
+    EXPECT_THAT(places(load_gltf(file, "0")), ElementsAre(2)) << "a name goes before an index";
+    EXPECT_THAT(places(load_gltf(file)), ElementsAre(1)) << "the default scene";
+    EXPECT_EQ(
+        error_of([&] { load_gltf(file, "3"); }),
+        "--scene 3: scene.gltf has 3 scene(s): scene 0, scene 1 \"0\", scene 2 \"empty\"; name one "
+        "of them by index or name");
+    EXPECT_THAT(
+        error_of([&] { load_gltf(file, "-1"); }), HasSubstr("--scene -1: scene.gltf has 3"));
+    EXPECT_EQ(
+        error_of([&] { load_gltf(file, "empty"); }),
+        "scene.gltf: scene empty: holds no triangles; add a mesh to it or choose another --scene");
+    gltf.root.erase("scenes");
+    gltf.root.erase("scene");
+    EXPECT_EQ(
+        error_of([&] { load_gltf(folder.write("scene.gltf", gltf.text()), "0"); }),
+        "--scene 0: scene.gltf has 0 scene(s); name one of them by index or name");
+}
+
+// Of a hidden subtree neither meshes nor lights are seen, but cameras see [KHR_node_visibility].
+TEST(GltfNodes, HidesSubtrees) {
+    const Json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
+    const Json shown = {{"KHR_node_visibility", {{"visible", true}}}};
+    GltfBuilder gltf;
+    gltf.triangle();
+    gltf.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_node_visibility"};
+    gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    gltf.root["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    const Json light = {{"light", 0}};
+    gltf.root["nodes"] = {
+        {{"mesh", 0}, {"translation", {1, 0, 0}}, {"extensions", shown}},
+        {{"mesh", 0}, {"translation", {2, 0, 0}}, {"extensions", hidden}, {"children", {2, 3, 4}}},
+        {{"mesh", 0}, {"extensions", shown}},
+        {{"camera", 0}},
+        {{"extensions", {{"KHR_lights_punctual", light}}}},
+        {{"extensions",
+          {{"KHR_lights_punctual", light}, {"KHR_node_visibility", Json::object()}}}}};
+    gltf.root["scenes"][0]["nodes"] = {0, 1, 5};
+    const Scene scene = load(gltf);
+    EXPECT_THAT(places(scene), ElementsAre(1));
+    EXPECT_EQ(scene.cameras.size(), 1U);
+    EXPECT_EQ(scene.lights.size(), 1U);
+    EXPECT_THAT(scene.ignored, IsEmpty());
+    gltf.root["nodes"][1]["extensions"]["KHR_node_visibility"]["visible"] = 0;
+    EXPECT_EQ(
+        load_error(gltf),
+        "scene.gltf: node 1: KHR_node_visibility: visible is neither true nor false; repair it");
+}
+
 TEST(GltfNodes, JudgesOnlyWhatTheSceneReaches) {
     GltfBuilder gltf;
     gltf.triangle();

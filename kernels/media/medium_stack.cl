@@ -1,0 +1,50 @@
+// Which medium surrounds a path: plane MEDIUM_STACK, eight bits a medium (its row + 1), the one
+// entered last lowest. That one fills the space, whatever lies around it: the innermost entered
+// wins.
+#pragma once
+
+#include "geometry/interaction.cl"
+#include "shared/inline.h"
+
+INLINE uint innermost_medium(const uint stack) {
+    return stack & 255u;
+}
+
+INLINE uint enter_medium(const uint stack, const uint medium) {
+    return stack << 8 | medium;
+}
+
+// Takes the uppermost entry of this medium away; a stack without one stays as it is: the mesh is
+// not closed.
+INLINE uint leave_medium(const uint stack, const uint medium) {
+    const uint above = (stack & 255u) == medium         ? 0u
+                       : (stack >> 8 & 255u) == medium  ? 0xFFu
+                       : (stack >> 16 & 255u) == medium ? 0xFFFFu
+                       : (stack >> 24) == medium        ? 0xFFFFFFu
+                                                        : 0xFFFFFFFFu;
+    const uint without = (stack & above) | (stack >> 8 & ~above);
+    return above == 0xFFFFFFFFu ? stack : without;
+}
+
+// The stack behind a boundary that a ray of this direction passes. A fifth medium does not fit.
+INLINE uint cross_boundary(
+    const uint stack, const uint medium, global const float* triangle, const Vec3 direction) {
+    const int enters = dot3(triangle_cross(triangle), direction) < 0.0f;
+    return enters ? enter_medium(stack, medium) : leave_medium(stack, medium);
+}
+
+INLINE float refractive_index(global const DeviceMedium* media, const uint stack) {
+    const uint innermost = innermost_medium(stack);
+    return innermost > 0 ? media[(int)max(innermost, 1u) - 1].ior : 1.0f;
+}
+
+INLINE int stack_is_full(const uint stack) {
+    return stack >> 24 != 0u;
+}
+
+// A ray that starts at its own origin, not behind a boundary.
+INLINE void start_at_origin(global float* path_media, const size_t stride, const size_t slot) {
+    PLANE(path_media, MEDIUM_T)[slot] = 0.0f;
+    PLANE(path_media, MEDIUM_PRIMITIVE)[slot] = as_float(NO_BOUNDARY);
+    PLANE(path_media, MEDIUM_PASSES)[slot] = as_float(0);
+}

@@ -1,0 +1,82 @@
+// Traces the pending connections of a scene with media and adds what arrives: instead of
+// `occlusion`, which knows no boundaries. One ray meets the index-matched boundaries one after the
+// other and ends at its light: nothing is pushed off a boundary, so no lamp below one is missed.
+//
+// reads: shadows, ids, scene, textures
+//
+// writes: radiances, fates
+//
+// One work-item a slot.
+
+#include "geometry/bvh.cl"
+#include "geometry/surface_texture.cl"
+#include "media/homogeneous.cl"
+#include "media/medium_stack.cl"
+#include "sampling/dimensions.cl"
+#include "shared/params.h"
+#include "shared/queues.h"
+
+kernel void connect_through_media(
+    constant const RenderParams* restrict settings,
+    const uint slots,
+    global const BvhNode* restrict nodes,
+    global const TriangleBlock* restrict blocks,
+    global const float* restrict triangles,
+    global const DeviceMaterial* restrict materials,
+    global const DeviceMedium* restrict media,
+    TEXTURE_PARAMETERS,
+    global const float* restrict shadows,
+    global const uint* restrict ids,
+    global float* restrict radiances,
+    global uchar* restrict fates) {
+    const size_t stride = settings->stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
+    const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
+    fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+    if (t_max <= 0.0f) return;
+    const Vec3 origin = load3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot);
+    const Vec3 direction = load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot);
+    const float length = sqrt(dot3(direction, direction));
+    uint stack = as_uint(PLANE(shadows, SHADOW_MEDIA)[slot]);
+    Vec3 value = load3(PLANE(shadows, SHADOW_R), stride, slot);
+    Vec3 tau = vec3(0.0f, 0.0f, 0.0f);
+    RayStart start = at_origin();
+    const Cover cover =
+        ray_cover(TEXTURES, triangles, HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
+    for (;;) {
+        const Hit hit = closest_hit(
+            nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
+            t_max, start, &cover);
+        const int arrives = hit.primitive < 0 || hit.t >= t_max;
+        if (!arrives) {
+            global const float* triangle = triangles + TRIANGLE_FLOATS * hit.primitive;
+            const int opaque =
+                materials[as_int(triangle[TRIANGLE_MATERIAL])].boundary != BOUNDARY_INDEX_MATCHED;
+            if (opaque) return;
+        }
+        const uint innermost = innermost_medium(stack);
+        if (innermost > 0)
+            tau = madd3(
+                tau, extinction(media + (int)innermost - 1),
+                ((arrives ? t_max : hit.t) - start.t) * length);
+        if (arrives) break;
+        const Interaction x =
+            find_interaction(triangles, materials, hit.primitive, hit.u, hit.v, direction);
+        value = mul3(value, x.base);
+        if (HAS_TEXTURES) {
+            const Texel t = texture_on_triangle(
+                cover.textures, texture_row(cover.textures, x.material, TEXTURE_BASE_COLOR),
+                triangles + (size_t)TRIANGLE_FLOATS * hit.primitive, hit.u, hit.v);
+            value = mul3(value, vec3(t.r, t.g, t.b));
+        }
+        stack = cross_boundary(
+            stack, materials[x.material].medium, triangles + TRIANGLE_FLOATS * hit.primitive,
+            direction);
+        start = ray_start(hit.t, hit.primitive);
+    }
+    global float* radiance = PLANE(radiances, RADIANCE_R);
+    store3(
+        radiance, stride, slot,
+        add3(load3(radiance, stride, slot), mul3(value, transmittance(tau))));
+}

@@ -1,0 +1,49 @@
+// Lets paths through index-matched boundaries: the ray goes on as it is, behind the boundary,
+// tinted by its base colour, in the medium that begins or ends there. That is no scattering.
+//
+// reads: rays, surfaces, scene
+//
+// writes: media, hits (the pass), throughputs
+//
+// One work-item a slot.
+
+#include "media/medium_stack.cl"
+#include "shared/params.h"
+
+kernel void pass_boundary(
+    constant const RenderParams* restrict settings,
+    const uint slots,
+    global const float* restrict triangles,
+    global const DeviceMaterial* restrict materials,
+    global const float* restrict rays,
+    global const float* restrict surfaces,
+    global float* restrict path_media,
+    global float* restrict hits,
+    global float* restrict throughputs) {
+    const size_t stride = settings->stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
+    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    if (primitive < 0) return;
+    global const DeviceMaterial* material =
+        materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
+    if (material->boundary != BOUNDARY_INDEX_MATCHED) return;
+    const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
+    const uint crossed = cross_boundary(
+        stack, material->medium, triangles + TRIANGLE_FLOATS * primitive,
+        load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));
+    // more media around one another than the stack holds: a NaN, to be found and counted
+    const int too_deep = stack_is_full(stack) & (crossed == enter_medium(stack, material->medium));
+    const float fits = too_deep ? NAN : 1.0f;
+    const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
+    const Vec3 throughput =
+        scale3(mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), base), fits);
+    store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
+    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(crossed);
+    PLANE(path_media, MEDIUM_T)[slot] = PLANE(hits, HIT_T)[slot];
+    PLANE(path_media, MEDIUM_PRIMITIVE)[slot] = as_float(primitive);
+    PLANE(path_media, MEDIUM_PASSES)
+    [slot] = as_float(as_uint(PLANE(path_media, MEDIUM_PASSES)[slot]) + 1);
+    PLANE(hits, HIT_PRIMITIVE)
+    [slot] = as_float(max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
+}

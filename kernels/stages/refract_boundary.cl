@@ -1,0 +1,79 @@
+// Continues every path at a dielectric boundary: reflected with the chance that Fresnel's equations
+// give, else refracted into the medium that begins or ends there. A path that crosses carries
+// (n_i / n_t)^2 of the radiance behind [Veach 1997, section 5.2].
+//
+// reads: rays, surfaces, ids, scene, media
+//
+// writes: rays, media, hits, throughputs, ids
+//
+// One work-item a slot.
+
+#include "materials/dielectric.cl"
+#include "media/medium_stack.cl"
+#include "sampling/dimensions.cl"
+#include "shared/params.h"
+
+kernel void refract_boundary(
+    constant const RenderParams* restrict settings,
+    const uint slots,
+    global const float* restrict triangles,
+    global const DeviceMaterial* restrict materials,
+    global const DeviceMedium* restrict media,
+    global const float* restrict surfaces,
+    global float* restrict rays,
+    global float* restrict path_media,
+    global float* restrict hits,
+    global float* restrict throughputs,
+    global uint* restrict ids) {
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
+    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    if (primitive < 0) return;
+    global const DeviceMaterial* material =
+        materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
+    if (material->boundary != BOUNDARY_DIELECTRIC) return;
+    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+    const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
+    const Frame frame = frame_around(load_shading_normal(surfaces, stride, slot));
+    const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
+    const uint crossed =
+        cross_boundary(stack, material->medium, triangles + TRIANGLE_FLOATS * primitive, direction);
+    const int too_deep = stack_is_full(stack) & (crossed == enter_medium(stack, material->medium));
+
+    const uint seed = PLANE(ids, ID_SEED)[slot];
+    const uint index = PLANE(ids, ID_INDEX)[slot];
+    const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
+    const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
+    const Sample2 u = unit_pair(scattering_pair(seed, index, branch, scattering, PAIR_DIRECTION));
+    const float choice =
+        unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
+    const DielectricSample s = dielectric_sample(
+        to_local(frame, scale3(direction, -1.0f)), material->alpha, refractive_index(media, stack),
+        refractive_index(media, crossed), u, choice);
+    const Vec3 wi = to_world(frame, s.wi);
+
+    const Vec3 one = vec3(1.0f, 1.0f, 1.0f);
+    const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
+    // more media around one another than the stack holds: a NaN, to be found and counted
+    const Vec3 passed = scale3(base, too_deep ? NAN : 1.0f);
+    const Vec3 throughput = mul3(
+        load3(PLANE(throughputs, THROUGHPUT_R), stride, slot),
+        scale3(select3(s.reflects, one, passed), s.weight));
+    const Vec3 side = scale3(ng, s.reflects ? 1.0f : -1.0f);
+    float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
+    goes_on *= dot3(side, wi) <= 0.0f ? 0.0f : 1.0f;
+    goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN
+    const int continues = goes_on > 0.0f;
+    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? HIT_DIELECTRIC : HIT_ENDED);
+    store3(
+        PLANE(rays, RAY_ORIGIN_X), stride, slot,
+        leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), side));
+    store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
+    store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
+    PLANE(throughputs, THROUGHPUT_PDF)[slot] = s.pdf_w;
+    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(s.reflects ? stack : crossed);
+    PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
+    start_at_origin(path_media, stride, slot);
+}

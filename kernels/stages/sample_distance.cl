@@ -1,0 +1,139 @@
+// Decides where a path in a medium stops on the way to the surface it would hit (notes 6, with
+// sigma_t in alpha), and adds what the medium emits along the way. A segment that branches is
+// passed first, with weight exp(-tau), and stopped on by its other children.
+//
+// reads: rays, media, lights, scene
+//
+// writes: hits and positions (a stop), throughputs, radiances, ids, branches
+//
+// One work-item a slot. A ray that misses everything has left all media, whatever its stack says:
+// the mesh was not closed.
+
+#include "lights/light_point.cl"
+#include "media/homogeneous.cl"
+#include "media/medium_stack.cl"
+#include "sampling/branch.cl"
+#include "sampling/dimensions.cl"
+#include "shared/params.h"
+
+// A stop keeps this distance from the ends of its segment, so that rounding does not carry it over
+// a boundary; half a segment if that is shorter.
+#define STOP_MARGIN 0x1p-21f
+
+kernel void sample_distance(
+    constant const RenderParams* restrict settings,
+    const uint slots,
+    global const float* restrict triangles,
+    global const DeviceLight* restrict lights,
+    global const DeviceMedium* restrict media,
+    global const float* restrict rays,
+    global const float* restrict path_media,
+    global float* restrict hits,
+    global float* restrict surfaces,
+    global float* restrict throughputs,
+    global float* restrict radiances,
+    global uint* restrict ids,
+    global float* restrict branches) {
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
+    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    const uint innermost = innermost_medium(as_uint(PLANE(path_media, MEDIUM_STACK)[slot]));
+    const Vec3 origin = load3(PLANE(rays, RAY_ORIGIN_X), stride, slot);
+    if (HAS_SPLITS && primitive == HIT_MEDIUM) {
+        store3(PLANE(surfaces, SURFACE_X), stride, slot, origin);  // a stop that is resumed
+        PLANE(surfaces, SURFACE_MATERIAL)[slot] = as_float(0);
+    }
+    if (primitive < 0) return;
+    if (innermost == 0) return;
+    const float hit_t = PLANE(hits, HIT_T)[slot];
+    if (HAS_SPLITS && hit_t == T_RESUMED) return;
+    const int resumed = HAS_SPLITS && hit_t < 0.0f;
+    global const DeviceMedium* medium = media + (int)innermost - 1;
+    const float start = PLANE(path_media, MEDIUM_T)[slot];
+    const float end = fabs(hit_t);
+    const float length = end - start;
+    const Vec3 throughput = load3(PLANE(throughputs, THROUGHPUT_R), stride, slot);
+
+    // emission of the whole segment, whatever becomes of the path: it needs no sampling
+    const Vec3 tau = scale3(extinction(medium), length);
+    const Vec3 reaching =
+        vec3(mean_of_exp_minus(tau.x), mean_of_exp_minus(tau.y), mean_of_exp_minus(tau.z));
+    const Vec3 emission = vec3(medium->emission_r, medium->emission_g, medium->emission_b);
+    global float* radiance = PLANE(radiances, RADIANCE_R);
+    store3(
+        radiance, stride, slot,
+        madd3(
+            load3(radiance, stride, slot), mul3(mul3(throughput, emission), reaching),
+            resumed ? 0.0f : length));
+
+    const int scatters = MEDIA_SCATTER && max_component3(scattering_of(medium)) > 0.0f;
+    uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
+    int branching = 0;
+    if (HAS_SPLITS) {
+        const uint stacked = PLANE(ids, ID_STACK)[slot];
+        const uint level = resumed ? stacked - 1 : stacked;
+        const int first = (stacked & 1u) == 0u && level < BRANCH_LEVELS * params.split_depth;
+        branching = resumed | (scatters & first & (DISTANCES != DISTANCE_EXPONENTIAL));
+        if (branching) {
+            global float* segment = branch_at(branches, stride, level);
+            if (!resumed) {
+                open_branch(
+                    branches, stride, slot, level, stacked, -end, 1, origin, rays, hits,
+                    throughputs, path_media, ids);
+                store3(PLANE(segment, BRANCH_R), stride, slot, throughput);
+            }
+            const uint left =
+                resumed ? as_uint(PLANE(segment, BRANCH_LEFT)[slot]) : params.stops + 1;
+            PLANE(segment, BRANCH_LEFT)[slot] = as_float(left - 1);
+            branch = branch_child(branch, params.stops + 1, left);
+            PLANE(ids, ID_BRANCH)[slot] = branch;
+        }
+    }
+
+    // every segment of a ray draws numbers of its own
+    const uint passes = as_uint(PLANE(path_media, MEDIUM_PASSES)[slot]);
+    const uint seed = PLANE(ids, ID_SEED)[slot];
+    const uint index = PLANE(ids, ID_INDEX)[slot];
+    const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
+    const Sample2 u = unit_pair(scattering_pair(
+        passes > 0 ? hash_pair(seed, passes) : seed, index, branch, scattering, PAIR_DISTANCE));
+    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+    const Vec3 pmf = channel_pmf(throughput);
+    MediumEvent event;
+    if (DISTANCES == DISTANCE_EXPONENTIAL) {
+        event = sample_exponential(medium, length, pmf, u);
+    } else {
+        View view = no_view();
+        if (DISTANCES >= DISTANCE_EQUIANGULAR) {
+            const LightPoint point =
+                light_point(triangles, lights, &params, seed, index, branch, scattering);
+            const View seen =
+                view_from(sub3(point.p, madd3(origin, direction, start)), direction, length);
+            view.start = point.exists ? seen.start : view.start;
+            view.height = point.exists ? seen.height : view.height;
+            view.angle = point.exists ? seen.angle : view.angle;
+        }
+        event = sample_stop_or_pass(medium, length, pmf, view, u);
+        if (HAS_SPLITS) {
+            const MediumEvent stop = sample_stop(medium, length, absorptance(tau), pmf, view, u);
+            const Vec3 child = select3(
+                resumed, scale3(stop.weight, 1.0f / (float)params.stops), transmittance(tau));
+            event.stops = branching ? resumed : event.stops;
+            event.distance = branching ? stop.distance : event.distance;
+            event.weight = select3(branching, child, event.weight);
+        }
+    }
+    // a medium that does not scatter is passed for certain
+    event.stops = scatters ? event.stops : 0;
+    event.weight = select3(scatters, event.weight, transmittance(tau));
+    store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, mul3(throughput, event.weight));
+
+    const float margin = min(STOP_MARGIN, 0.5f * length);
+    const float stop = start + clamp(event.distance, start > 0.0f ? margin : 0.0f, length - margin);
+    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(event.stops ? HIT_MEDIUM : primitive);
+    PLANE(hits, HIT_T)[slot] = event.stops ? (resumed ? -stop : stop) : end;
+    store3(PLANE(surfaces, SURFACE_X), stride, slot, madd3(origin, direction, stop));
+    PLANE(surfaces, SURFACE_MATERIAL)[slot] = as_float(0);  // a valid index for whoever looks
+}

@@ -1,0 +1,54 @@
+// Continues every path that stopped in a medium in a direction of its phase function (notes 6), or
+// ends it.
+//
+// reads: surfaces (the position), media
+//
+// writes: rays, hits (the end), throughputs, ids, media, branches
+//
+// One work-item a slot.
+
+#include "media/medium_stack.cl"
+#include "media/phase.cl"
+#include "sampling/branch.cl"
+#include "sampling/dimensions.cl"
+#include "shared/params.h"
+
+kernel void scatter_medium(
+    constant const RenderParams* restrict settings,
+    const uint slots,
+    global const DeviceMedium* restrict media,
+    global const float* restrict surfaces,
+    global float* restrict path_media,
+    global float* restrict rays,
+    global float* restrict hits,
+    global float* restrict throughputs,
+    global uint* restrict ids,
+    global float* restrict branches) {
+    const RenderParams params = *settings;
+    const size_t stride = params.stride;
+    const size_t slot = get_global_id(0);
+    if (slot >= slots) return;
+    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_MEDIUM) return;
+    const uint innermost = innermost_medium(as_uint(PLANE(path_media, MEDIUM_STACK)[slot]));
+    const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
+    const Vec3 position = load3(PLANE(surfaces, SURFACE_X), stride, slot);
+    const Child child = next_child(
+        branches, stride, slot, params.split_depth, params.stop_directions, position, rays, hits,
+        throughputs, path_media, ids);
+    const Sample2 u = unit_pair(scattering_pair(
+        PLANE(ids, ID_SEED)[slot], PLANE(ids, ID_INDEX)[slot], child.branch, scattering,
+        PAIR_DIRECTION));
+    const PhaseSample s = phase_sample(
+        media[(int)innermost - 1].anisotropy, load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), u);
+    const Vec3 throughput = scale3(child.carried, s.weight);
+    float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
+    goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN
+    const int continues = goes_on > 0.0f;
+    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? HIT_MEDIUM : HIT_ENDED);
+    store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, position);
+    store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, s.wi);
+    store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
+    PLANE(throughputs, THROUGHPUT_PDF)[slot] = s.pdf_w;
+    PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
+    start_at_origin(path_media, stride, slot);
+}

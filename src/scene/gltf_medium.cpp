@@ -1,0 +1,180 @@
+#include "scene/gltf_medium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wavepath {
+namespace {
+
+constexpr const char* extras_key = "wavepath_medium";
+
+// The names that the drafts' multi-scatter albedo has had, the latest first (2026, 2025, 2024).
+constexpr const char* albedo_spellings[] = {
+    "multiscatterColorFactor", "multiscatterColor", "scatterAlbedo"};
+
+// Henyey-Greenstein beyond this is a delta in single precision.
+constexpr double largest_anisotropy = 0.99999;
+
+// The single-scattering albedo under which a half-space of this anisotropy has the multi-scatter
+// albedo `rho`: 1 - s^2 with s the bracket of KHR_materials_volume_scatter for g = 0, and
+// (1 - s^2) / (1 - g s^2) of KHR_materials_scatter. The fit leaves 6e-6 at rho = 0, where nothing
+// scatters.
+double single_albedo(double rho, double g) {
+    const double s =
+        4.09712 + 4.20863 * rho - std::sqrt(9.59217 + 41.6808 * rho + 17.7126 * rho * rho);
+    return rho > 0 ? std::clamp((1 - s * s) / (1 - g * s * s), 0.0, 1.0) : 0.0;
+}
+
+class MediumReader {
+  public:
+    MediumReader(const GltfFile& file, int index)
+        : file_(file),
+          source_(file.model.materials[static_cast<std::size_t>(index)]),
+          where_(label("material", index, source_.name)) {}
+
+    bool has_extras() const { return source_.extras.IsObject() && source_.extras.Has(extras_key); }
+
+    double transmission() const {
+        return extension_number("KHR_materials_transmission", "transmissionFactor", 0);
+    }
+
+    double thickness() const {
+        return extension_number("KHR_materials_volume", "thicknessFactor", 0);
+    }
+
+    Medium read() const { return has_extras() ? from_extras() : from_volume(); }
+
+    template <typename... Args>
+    [[noreturn]] void fail(fmt::format_string<Args...> message, Args&&... args) const {
+        file_.fail(where_, message, std::forward<Args>(args)...);
+    }
+
+  private:
+    double extension_number(const char* extension, const char* key, double missing) const {
+        const auto* found = find_extension(source_.extensions, extension);
+        return found ? number(file_, where_, *found, key, missing) : missing;
+    }
+
+    // sigma_a = -ln(attenuationColor) / attenuationDistance
+    Medium from_volume() const {
+        Medium medium;
+        const auto* volume = find_extension(source_.extensions, "KHR_materials_volume");
+        const double distance = number(
+            file_, where_, *volume, "attenuationDistance", std::numeric_limits<double>::infinity());
+        if (!(distance > 0)) fail("attenuationDistance is {}; it has to be above 0 [m]", distance);
+        const std::vector<double> color =
+            numbers(file_, where_, *volume, "attenuationColor", {1, 1, 1});
+        if (color.size() != 3)
+            fail("attenuationColor has {} numbers instead of 3; repair it", color.size());
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!(color[c] >= 0 && color[c] <= 1))
+                fail("attenuationColor holds {}, not in 0 .. 1; repair it", color[c]);
+            // black absorbs everything: as much as single precision can tell from nothing
+            const double kept = std::max(color[c], 1e-37);
+            medium.sigma_a[c] = static_cast<float>(-std::log(kept) / distance);
+        }
+        if (const auto* newer = find_extension(source_.extensions, "KHR_materials_scatter"))
+            scatter(
+                medium, *newer, number(file_, where_, *newer, "scatterStrengthFactor", 0),
+                {1, 1, 1}, true);
+        else if (
+            const auto* older = find_extension(source_.extensions, "KHR_materials_volume_scatter"))
+            scatter(medium, *older, 1, {0, 0, 0}, false);
+        return medium;
+    }
+
+    // What attenuates also scatters: sigma_t stays, and its share of the single-scattering albedo
+    // is sigma_s.
+    void scatter(
+        Medium& medium,
+        const tinygltf::Value& extension,
+        double strength,
+        const std::vector<double>& missing,
+        bool albedo_knows_anisotropy) const {
+        const auto* spelling = std::ranges::find_if(
+            albedo_spellings, [&](const char* name) { return extension.Has(name); });
+        const char* key = spelling == std::end(albedo_spellings) ? albedo_spellings[0] : *spelling;
+        const std::vector<double> color = numbers(file_, where_, extension, key, missing);
+        if (color.size() != 3) fail("{} has {} numbers instead of 3; repair it", key, color.size());
+        const double g = number(file_, where_, extension, "scatterAnisotropy", 0);
+        if (!(std::abs(g) <= largest_anisotropy))
+            fail("scatterAnisotropy is {}, not between -1 and 1; repair it", g);
+        medium.anisotropy = static_cast<float>(g);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double rho = strength * color[c];
+            if (!(rho >= 0 && rho <= 1))
+                fail("{} times the scatter strength is {}, not in 0 .. 1; repair it", key, rho);
+            const double share = single_albedo(rho, albedo_knows_anisotropy ? g : 0);
+            const double sigma_t = medium.sigma_a[c];
+            medium.sigma_s[c] = static_cast<float>(share * sigma_t);
+            medium.sigma_a[c] = static_cast<float>((1 - share) * sigma_t);
+        }
+    }
+
+    Medium from_extras() const {
+        const tinygltf::Value& extras = source_.extras.Get(extras_key);
+        if (!extras.IsObject()) fail("extras.{} is not an object; see docs/media.md", extras_key);
+        for (const std::string& key : extras.Keys())
+            if (key != "sigma_a" && key != "sigma_s" && key != "emission" && key != "g")
+                fail(
+                    "extras.{} has no member \"{}\"; use sigma_a, sigma_s, g, emission", extras_key,
+                    one_line(key));
+        Medium medium;
+        medium.sigma_a = coefficients(extras, "sigma_a");
+        medium.sigma_s = coefficients(extras, "sigma_s");
+        medium.emission = coefficients(extras, "emission");
+        const double g = number(file_, where_, extras, "g", 0);
+        if (!(std::abs(g) <= largest_anisotropy))
+            fail(
+                "extras.{}: g is {}, not in -{} .. {}", extras_key, g, largest_anisotropy,
+                largest_anisotropy);
+        medium.anisotropy = static_cast<float>(g);
+        return medium;
+    }
+
+    Rgb coefficients(const tinygltf::Value& object, const char* key) const {
+        const std::vector<double> values = numbers(file_, where_, object, key, {0, 0, 0});
+        if (values.size() != 3)
+            fail("extras.{}: {} has {} numbers instead of 3", extras_key, key, values.size());
+        Rgb rgb;
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!(values[c] >= 0 && values[c] <= std::numeric_limits<float>::max()))
+                fail("extras.{}: {} holds {}; it has to be 0 or more", extras_key, key, values[c]);
+            rgb[c] = static_cast<float>(values[c]);
+        }
+        return rgb;
+    }
+
+    const GltfFile& file_;
+    const tinygltf::Material& source_;
+    std::string where_;
+};
+
+}  // namespace
+
+void read_medium(const GltfFile& file, int index, Material& material, Ignored& ignored) {
+    const MediumReader reader(file, index);
+    const double transmission = reader.transmission();
+    const bool encloses = transmission > 0 && reader.thickness() > 0;
+    if (reader.has_extras() && !encloses)
+        reader.fail(
+            "extras.{} needs KHR_materials_transmission with transmissionFactor above 0 and "
+            "KHR_materials_volume with thicknessFactor above 0; add them",
+            extras_key);
+    if (!encloses || material.unlit) return;
+    constexpr const char* instead = "rendered as thin walls";
+    if (transmission < 1 || material.metallic > 0)
+        ignored.add("volumes that transmit in part", instead);
+    else if (material.ior < 1)
+        ignored.add("volumes that refract with ior 0", instead);
+    else if (material.ior == 1 && material.emits())
+        reader.fail("is a boundary with ior 1 and emits; take emissiveFactor or the volume away");
+    else {
+        material.boundary = material.ior == 1 ? Boundary::index_matched : Boundary::dielectric;
+        material.medium = reader.read();
+        material.transmission = 0;  // of thin walls
+    }
+}
+
+}  // namespace wavepath

@@ -1,0 +1,222 @@
+#include "scene/media_tables.h"
+
+#include "error.h"
+#include "scene/device_material.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+
+namespace wavepath {
+
+namespace {
+
+using Point = std::array<float, 3>;
+
+Vec3d minus(const Point& a, const Vec3d& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double dot(const Vec3d& a, const Vec3d& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+double length(const Vec3d& a) {
+    return std::sqrt(dot(a, a));
+}
+
+// The triangles of the instances that enclose media together.
+struct Body {
+    std::vector<std::array<Point, 3>> triangles;
+    std::set<uint32_t> boundaries;  // materials of the triangles that let light in
+    std::string name;
+
+    double volume() const {
+        double sum = 0;
+        for (const auto& [a, b, c] : triangles)
+            sum += determinant(minus(a, {}), minus(b, {}), minus(c, {})) / 6;
+        return sum;
+    }
+
+    // Around a point: 1 inside, 0 outside; in between where the mesh is open [Van Oosterom &
+    // Strackee 1983; Jacobson 2013].
+    double winding(const Vec3d& point) const {
+        double sum = 0;
+        for (const auto& [pa, pb, pc] : triangles) {
+            const Vec3d a = minus(pa, point);
+            const Vec3d b = minus(pb, point);
+            const Vec3d c = minus(pc, point);
+            const double la = length(a);
+            const double lb = length(b);
+            const double lc = length(c);
+            sum += std::atan2(
+                determinant(a, b, c),
+                la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+        }
+        return sum / (2 * std::numbers::pi);
+    }
+
+    // Every edge is run through as often one way as the other.
+    bool is_closed() const {
+        std::map<std::pair<Point, Point>, int> edges;
+        for (const auto& t : triangles)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Point& a = t[k];
+                const Point& b = t[(k + 1) % 3];
+                edges[std::minmax(a, b)] += a < b ? 1 : -1;
+            }
+        return std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
+    }
+};
+
+std::vector<Body> bodies_with_media(const Scene& scene, const NormalisedScene& geometry) {
+    std::map<uint32_t, Body> bodies;
+    std::set<uint32_t> wanted;
+    for (const Instance& instance : scene.instances)
+        if (scene.materials[scene.primitives[instance.primitive].material].boundary !=
+            Boundary::opaque)
+            wanted.insert(instance.body);
+    uint32_t first = 0;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const uint32_t end = geometry.ends[i];
+        if (wanted.contains(instance.body)) {
+            const Primitive& primitive = scene.primitives[instance.primitive];
+            Body& body = bodies[instance.body];
+            if (body.name.empty()) body.name = primitive.name;
+            if (scene.materials[primitive.material].boundary != Boundary::opaque)
+                body.boundaries.insert(primitive.material);
+            for (uint32_t t = first; t < end; ++t) {
+                const float* p = &geometry.positions[std::size_t{9} * t];
+                body.triangles.push_back(
+                    {Point{p[0], p[1], p[2]}, Point{p[3], p[4], p[5]}, Point{p[6], p[7], p[8]}});
+            }
+        }
+        first = end;
+    }
+    std::vector<Body> found;
+    for (auto& [number, body] : bodies) found.push_back(std::move(body));
+    return found;
+}
+
+DeviceMedium device_medium(const Material& material, double metres) {
+    const Medium& medium = material.medium;
+    const auto scaled = [&](float per_metre) { return static_cast<float>(per_metre * metres); };
+    DeviceMedium d{};
+    d.sigma_s_r = scaled(medium.sigma_s[0]);
+    d.sigma_s_g = scaled(medium.sigma_s[1]);
+    d.sigma_s_b = scaled(medium.sigma_s[2]);
+    d.sigma_t_r = scaled(medium.sigma_a[0] + medium.sigma_s[0]);
+    d.sigma_t_g = scaled(medium.sigma_a[1] + medium.sigma_s[1]);
+    d.sigma_t_b = scaled(medium.sigma_a[2] + medium.sigma_s[2]);
+    d.emission_r = scaled(medium.emission[0]);
+    d.emission_g = scaled(medium.emission[1]);
+    d.emission_b = scaled(medium.emission[2]);
+    d.anisotropy = medium.anisotropy;
+    d.ior = material.boundary == Boundary::dielectric ? material.ior : 1;
+    return d;
+}
+
+// Whether the film rectangle of an orthographic camera may meet the triangle: the box, in pixels,
+// of where the triangle cuts the film's plane overlaps the film.
+bool cuts_film(const std::array<Point, 3>& triangle, const RenderParams& params) {
+    const Vec3d corner{params.corner_x, params.corner_y, params.corner_z};
+    const Vec3d normal{params.camera_x, params.camera_y, params.camera_z};
+    const Vec3d right{params.right_x, params.right_y, params.right_z};
+    const Vec3d down{params.down_x, params.down_y, params.down_z};
+    double low[2] = {1e300, 1e300};
+    double high[2] = {-1e300, -1e300};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d a = minus(triangle[k], corner);
+        const Vec3d b = minus(triangle[(k + 1) % 3], corner);
+        const double da = dot(a, normal);
+        const double db = dot(b, normal);
+        if (da * db > 0) continue;
+        const double at = da == db ? 0 : da / (da - db);
+        const Vec3d p{
+            a[0] + at * (b[0] - a[0]), a[1] + at * (b[1] - a[1]), a[2] + at * (b[2] - a[2])};
+        const double pixel[2] = {dot(p, right) / dot(right, right), dot(p, down) / dot(down, down)};
+        for (std::size_t j = 0; j < 2; ++j) {
+            low[j] = std::min(low[j], pixel[j]);
+            high[j] = std::max(high[j], pixel[j]);
+        }
+    }
+    return low[0] <= params.width && high[0] >= 0 && low[1] <= params.height && high[1] >= 0;
+}
+
+}  // namespace
+
+MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geometry) {
+    MediaTables tables;
+    tables.rows.assign(scene.materials.size(), 0);
+    const std::vector<Body> bodies = bodies_with_media(scene, geometry);
+    for (const Body& body : bodies) {
+        for (const uint32_t m : body.boundaries) {
+            if (tables.rows[m] > 0) continue;
+            const Material& material = scene.materials[m];
+            const Medium& medium = material.medium;
+            tables.media.push_back(device_medium(material, geometry.extent.metres));
+            tables.refract = tables.refract || material.boundary == Boundary::dielectric;
+            tables.refract_roughly = tables.refract_roughly || refracts_roughly(material);
+            tables.rows[m] = static_cast<uint32_t>(tables.media.size());
+            tables.scatter = tables.scatter || medium.scatters();
+            tables.emit = tables.emit || medium.emits();
+        }
+        if (!body.is_closed())
+            tables.warnings.push_back(fmt::format(
+                "{}: encloses a medium but is not closed; rays that leave by a hole leave the "
+                "medium only when they leave the scene",
+                body.name));
+        else if (body.volume() < 0)
+            tables.warnings.push_back(fmt::format(
+                "{}: encloses a medium but is inside out; its medium is missing: turn its faces",
+                body.name));
+    }
+    constexpr std::size_t most_media = 255;  // eight bits of MEDIUM_STACK
+    if (tables.media.size() > most_media)
+        throw Error(
+            "{}: {} media; at most {} can be told apart: let materials share", scene.name,
+            tables.media.size(), most_media);
+    return tables;
+}
+
+uint32_t media_at_camera(
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    const MediaTables& tables,
+    const RenderParams& params) {
+    if (tables.media.empty()) return 0;
+    const bool orthographic = params.orthographic != 0;
+    const Vec3d camera = orthographic ? Vec3d{params.corner_x, params.corner_y, params.corner_z}
+                                      : Vec3d{params.camera_x, params.camera_y, params.camera_z};
+    std::vector<std::pair<double, uint32_t>> around;  // volume, row + 1
+    for (const Body& body : bodies_with_media(scene, geometry)) {
+        const auto cuts = [&](const auto& triangle) { return cuts_film(triangle, params); };
+        if (orthographic && std::ranges::any_of(body.triangles, cuts))
+            throw Error(
+                "{}: the plane of the orthographic camera cuts through {}, which encloses a "
+                "medium; move the camera back or forth",
+                scene.name, body.name);
+        if (body.winding(camera) < 0.5) continue;
+        for (const uint32_t m : body.boundaries) around.emplace_back(body.volume(), tables.rows[m]);
+    }
+    if (around.size() > 4)
+        throw Error(
+            "{}: the camera is inside {} media; at most 4 may lie around one another", scene.name,
+            around.size());
+    std::ranges::sort(around, std::greater<>());
+    uint32_t stack = 0;
+    for (const auto& [volume, row] : around) stack = stack << 8U | row;
+    return stack;
+}
+
+}  // namespace wavepath

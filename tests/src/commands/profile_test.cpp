@@ -1,0 +1,75 @@
+// `wavepath profile`: what its numbers have to add up to.
+#include "support/command.h"
+
+#include <set>
+
+namespace wavepath {
+namespace {
+
+using ProfileCommand = CommandTest;
+
+TEST_F(ProfileCommand, AddsUp) {
+    const Outcome outcome = run(
+        "profile " + cornell_box + " --size 32x32 --spp 16 --pool 4096 --json " + path("a.json"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.words;
+    const nlohmann::json report = json("a.json");
+    const nlohmann::json& profile = report["profile"];
+    const double render = report["times_s"]["render"];
+
+    std::set<std::string> names;
+    double seconds = 0;
+    for (const nlohmann::json& row : profile["kernels"]) {
+        const std::string name = row["kernel"];
+        SCOPED_TRACE(name);
+        names.insert(name);
+        EXPECT_NE(outcome.words.find("\n" + name + " "), std::string::npos) << outcome.words;
+        EXPECT_GT(row["launches"], 0);
+        EXPECT_GE(row["items"], row["launches"]);
+        EXPECT_NEAR(row["share"].get<double>(), row["seconds"].get<double>() / render, 1e-9);
+        seconds += row["seconds"].get<double>();
+    }
+    EXPECT_EQ(
+        names,
+        (std::set<std::string>{
+            "assign_units", "generate_rays", "intersect", "scatter_queue", "move_paths", "interact",
+            "first_hit", "shade_emission", "direct_light", "occlusion", "sample_indirect",
+            "roulette_compact", "accumulate", "scan_queue", "fold_film"}));
+    EXPECT_NEAR(profile["kernel_seconds"].get<double>(), seconds, 1e-9);
+    EXPECT_NEAR(seconds + profile["outside_kernels_seconds"].get<double>(), render, 1e-9);
+}
+
+// Kernels run one after the other while the host waits: by the device's clock they can't take
+// longer than by the host's.
+TEST_F(ProfileCommand, KernelsTakeNoLongerThanTheHostSaw) {
+    ASSERT_EQ(
+        run("profile " + cornell_box + " --device cpu --size 64x64 --spp 64 --json " +
+            path("a.json"))
+            .exit_code,
+        0);
+    const nlohmann::json report = json("a.json");
+    if (!report["profile"]["device_clock"].get<bool>()) GTEST_SKIP() << "no times for kernels";
+    EXPECT_GT(report["profile"]["kernel_seconds"], 0);
+    EXPECT_LE(report["profile"]["kernel_seconds"], report["times_s"]["render"]);
+}
+
+TEST_F(ProfileCommand, CountsRaysByDepth) {
+    const Outcome outcome =
+        run("profile " + cornell_box +
+            " --size 16x16 --spp 4 --termination depth:2 --method path --json " + path("a.json"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.words;
+    const nlohmann::json report = json("a.json");
+    uint64_t paths = 0;
+    uint64_t rays = 0;
+    for (std::size_t k = 0; k < report["path_lengths"].size(); ++k) {
+        const uint64_t ended = report["path_lengths"][k];
+        paths += ended;
+        rays += ended * (k + 1);
+        if (k > 2) EXPECT_EQ(ended, 0U);
+    }
+    EXPECT_EQ(paths, 16U * 16 * 4);
+    EXPECT_EQ(rays, report["rays"]["closest_hit"]);
+    EXPECT_EQ(report["rays"]["occlusion"], 0);
+}
+
+}  // namespace
+}  // namespace wavepath

@@ -1,0 +1,161 @@
+#include "scene/gltf_medium.h"
+
+#include "support/gltf_builder.h"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace wavepath {
+namespace {
+
+using Json = GltfBuilder::Json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// An index-matched boundary, to be changed at will.
+Json boundary() {
+    return {
+        {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+        {"extensions",
+         {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+          {"KHR_materials_ior", {{"ior", 1}}},
+          {"KHR_materials_volume", {{"thicknessFactor", 0.1}}}}}};
+}
+
+GltfBuilder file_with(const Json& material) {
+    GltfBuilder gltf;
+    gltf.root["extensionsUsed"] = {
+        "KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume"};
+    gltf.root["extensionsRequired"] = gltf.root["extensionsUsed"];
+    gltf.add("materials", material);
+    gltf.object({{"attributes", {{"POSITION", gltf.triangle_positions()}}}, {"material", 0}});
+    return gltf;
+}
+
+Json with_extras(const Json& medium) {
+    Json material = boundary();
+    material["extras"] = {{"wavepath_medium", medium}};
+    return material;
+}
+
+TEST(GltfMedium, ReadsPhysicalCoefficients) {
+    const Scene scene = load(file_with(with_extras(
+        {{"sigma_a", {0.5, 1, 2}},
+         {"sigma_s", {3, 0, 4}},
+         {"g", -0.25},
+         {"emission", {1, 2, 3}}})));
+    const Material& material = scene.materials[0];
+    EXPECT_EQ(material.boundary, Boundary::index_matched);
+    EXPECT_THAT(material.medium.sigma_a, ElementsAre(0.5F, 1, 2));
+    EXPECT_THAT(material.medium.sigma_s, ElementsAre(3, 0, 4));
+    EXPECT_THAT(material.medium.emission, ElementsAre(1, 2, 3));
+    EXPECT_EQ(material.medium.anisotropy, -0.25F);
+    EXPECT_THAT(scene.ignored, IsEmpty());
+}
+
+TEST(GltfMedium, ReadsAttenuation) {
+    Json material = boundary();
+    material["extensions"]["KHR_materials_volume"]["attenuationColor"] = {0.5, 1, 0};
+    material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 2;
+    const Medium medium = load(file_with(material)).materials[0].medium;
+    EXPECT_FLOAT_EQ(medium.sigma_a[0], static_cast<float>(std::log(2) / 2));
+    EXPECT_EQ(medium.sigma_a[1], 0);
+    EXPECT_GT(medium.sigma_a[2], 40);
+    EXPECT_FALSE(medium.scatters());
+    // the extras win
+    material["extras"] = {{"wavepath_medium", {{"sigma_a", {1, 1, 1}}}}};
+    EXPECT_THAT(load(file_with(material)).materials[0].medium.sigma_a, ElementsAre(1, 1, 1));
+}
+
+// Single-scattering albedos of multi-scatter albedos .1, .5, .9: by either draft.
+TEST(GltfMedium, ReadsScatterDrafts) {
+    const auto albedos = [](const std::string& extension, const Json& scatter) {
+        Json material = boundary();
+        material["extensions"]["KHR_materials_volume"]["attenuationColor"] = {0.5, 0.5, 0.5};
+        material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 2;
+        material["extensions"][extension] = scatter;
+        const Medium medium = load(file_with(material)).materials[0].medium;
+        std::array<double, 3> albedo{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double sigma_t = medium.sigma_a[c] + medium.sigma_s[c];
+            EXPECT_NEAR(sigma_t, std::log(2) / 2, 1e-6);
+            albedo[c] = medium.sigma_s[c] / sigma_t;
+        }
+        return albedo;
+    };
+    const auto near = [](double a, double b, double c) {
+        return ElementsAre(
+            testing::DoubleNear(a, 2e-6), testing::DoubleNear(b, 2e-6),
+            testing::DoubleNear(c, 2e-6));
+    };
+    for (const char* key : {"multiscatterColorFactor", "multiscatterColor", "scatterAlbedo"})
+        EXPECT_THAT(
+            albedos("KHR_materials_volume_scatter", {{key, {0.1, 0.5, 0.9}}}),
+            near(.384240, .911709, .997907));
+    EXPECT_THAT(
+        albedos(
+            "KHR_materials_scatter", {{"scatterStrengthFactor", 1},
+                                      {"multiscatterColorFactor", {0.1, 0.5, 0.9}},
+                                      {"scatterAnisotropy", 0.5}}),
+        near(.555164, .953816, .998952));
+    EXPECT_THAT(albedos("KHR_materials_scatter", Json::object()), near(0, 0, 0));
+}
+
+TEST(GltfMedium, SaysWhatIsAThinWallInstead) {
+    struct Case {
+        const char* path;
+        Json value;
+        const char* line;
+    };
+    const Case cases[] = {
+        {"/extensions/KHR_materials_transmission/transmissionFactor", 0.5, "transmit in part (1)"},
+        {"/pbrMetallicRoughness/metallicFactor", 1, "transmit in part (1)"},
+        {"/extensions/KHR_materials_ior/ior", 0, "refract with ior 0 (1)"},
+    };
+    for (const Case& c : cases) {
+        Json material = boundary();
+        material[Json::json_pointer(c.path)] = c.value;
+        const Scene scene = load(file_with(material));
+        EXPECT_EQ(scene.materials[0].boundary, Boundary::opaque) << c.path;
+        EXPECT_GT(scene.materials[0].transmission, 0) << c.path;
+        EXPECT_THAT(scene.ignored, ElementsAre(HasSubstr(c.line))) << c.path;
+    }
+}
+
+TEST(GltfMedium, ReadsDielectricsOfAnyRoughness) {
+    for (const float roughness : {0.0F, 0.5F}) {
+        Json material = boundary();
+        material["extensions"]["KHR_materials_ior"]["ior"] = 1.33;
+        material["pbrMetallicRoughness"]["roughnessFactor"] = roughness;
+        const Scene scene = load(file_with(material));
+        EXPECT_EQ(scene.materials[0].boundary, Boundary::dielectric);
+        EXPECT_EQ(scene.materials[0].ior, 1.33F);
+        EXPECT_EQ(scene.materials[0].roughness, roughness);
+        EXPECT_THAT(scene.ignored, IsEmpty());
+    }
+}
+
+TEST(GltfMedium, RefusesWhatMeansNothing) {
+    const auto refusal = [](const Json& material) { return load_error(file_with(material)); };
+    EXPECT_THAT(refusal(with_extras({{"sigma_a", {0, -1, 0}}})), HasSubstr("0 or more"));
+    EXPECT_THAT(refusal(with_extras({{"sigma_s", {1, 1}}})), HasSubstr("2 numbers instead of 3"));
+    EXPECT_THAT(refusal(with_extras({{"g", 1}})), HasSubstr("g is 1"));
+    EXPECT_THAT(refusal(with_extras({{"sigma", {1, 1, 1}}})), HasSubstr("no member \"sigma\""));
+    EXPECT_THAT(refusal(with_extras(1)), HasSubstr("not an object"));
+    Json material = with_extras({{"sigma_a", {1, 1, 1}}});
+    material["extensions"].erase("KHR_materials_volume");
+    EXPECT_THAT(refusal(material), HasSubstr("needs KHR_materials_transmission"));
+    material = boundary();
+    material["emissiveFactor"] = {1, 1, 1};
+    EXPECT_THAT(refusal(material), HasSubstr("ior 1 and emits"));
+    material = boundary();
+    material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 0;
+    EXPECT_THAT(refusal(material), HasSubstr("attenuationDistance"));
+}
+
+}  // namespace
+}  // namespace wavepath

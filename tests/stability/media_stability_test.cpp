@@ -1,0 +1,101 @@
+// Media at the ends of their ranges, and the same bytes however the work is divided.
+#include "support/media.h"
+#include "support/rendering.h"
+
+#include <cstring>
+
+namespace wavepath {
+namespace {
+
+Scene slab(const Medium& medium, double half_width) {
+    Scene scene = scene_named("slab");
+    scene.environment = constant_environment(1);
+    add_slab(scene, medium, half_width);
+    return scene;
+}
+
+const Camera above = orthographic({0, 0, 2}, {0, 0, 0}, 0.01);
+
+// Nothing is cut: a plate that only scatters gives back all that falls on it. The longest paths
+// take some 10^4 scatterings.
+TEST(MediaStability, DensePlateLosesNothing) {
+    const struct { double tau, g; } plates[] = {{100, 0}, {20, 0.9999}, {20, -0.9999}};
+    for (const auto& [tau, g] : plates) {
+        const RenderResult result =
+            render_scene(slab(medium_of(tau, 1, g), 10), square_settings("path", above, 8, 4));
+        EXPECT_NEAR(shared_mean(result).mean, 1, 1e-3) << g;
+    }
+}
+
+// Optical thickness 10^4 in a scene of extent 2: free paths of 10^-4 / 2, a hundred times
+// RAY_OFFSET.
+TEST(MediaStability, OpaquePlateReflectsAsAHalfSpace) {
+    const RenderResult result = render_for(
+        {.bias = 0.01}, slab(medium_of(1e4, 0.9), 1), square_settings("mis", above, 32, 64));
+    EXPECT_TRUE(has_mean(shared_mean(result), .41494748, {.bias = 0.01}));
+}
+
+TEST(MediaStability, SmallAnisotropyIsNone) {
+    for (const double g : {1e-6, -1e-6}) {
+        const RenderResult result = render_for(
+            {.bias = 0.01}, slab(medium_of(1, 0.9, g), 40), square_settings("mis", above, 32, 64));
+        EXPECT_TRUE(has_mean(
+            shared_mean(result), .26741034 + .59162509, {.bias = 0.01, .truth_error = 2e-6}))
+            << g;
+    }
+}
+
+// A room of fog with a ball of another medium in it; the camera is in the fog.
+Scene foggy_room() {
+    Scene scene = scene_named("foggy room");
+    add_box(scene, lambert({0.7F, 0.5F, 0.4F}), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
+    add_square(scene, lambert(grey(0), grey(6)), {0, 0.9, 0}, {0, -1, 0}, 0.8);
+    Medium fog = medium_of(0.8, 0.9, 0.5);
+    fog.sigma_a = {0.3F, 0.1F, 0};
+    add_box(scene, boundary_of(fog), {-1.1, -1.1, -1.1}, {1.1, 1.1, 1.1}, Facing::outward);
+    add_icosphere(scene, boundary_of(medium_of(8, 0.99, -0.3)), {-0.3, -0.3, 0}, 0.4, 2);
+    return scene;
+}
+
+const Camera in_the_fog = perspective({0.8, 0.2, 0.9}, {-0.2, -0.4, -0.3}, 1.2);
+
+void expect_same(const RenderResult& a, const RenderResult& b) {
+    for (const auto& [name, plane] : a.film.image.channels)
+        EXPECT_EQ(
+            std::memcmp(
+                plane.data(), b.film.image.channels.at(name).data(), plane.size() * sizeof(float)),
+            0)
+            << name;
+}
+
+TEST(MediaStability, SameBytesOfPoolsAndWorkGroups) {
+    // 37 x 23 pixels of 13 samples: nothing divides evenly
+    RenderSettings settings = square_settings("mis", in_the_fog, 37, 13);
+    settings.height = 23;
+    const RenderResult first = render_scene(foggy_room(), settings);
+    for (const uint32_t pool : {300U, 1000U, 200000U}) {
+        SCOPED_TRACE(pool);
+        settings.pool = pool;
+        expect_same(first, render_scene(foggy_room(), settings));
+    }
+    settings.work_groups = {16, 64};
+    expect_same(first, render_scene(foggy_room(), settings));
+}
+
+// The same where segments and stops branch.
+TEST(MediaStability, SameBytesOfPoolsWithSplits) {
+    RenderSettings settings = square_settings("mis", in_the_fog, 37, 5);
+    settings.height = 23;
+    settings.method.distances = Distances::mis;
+    settings.splits = {2, 2, 2};
+    settings.split_depth = 2;
+    const RenderResult first = render_scene(foggy_room(), settings);
+    for (const uint32_t pool : {300U, 200000U}) {
+        SCOPED_TRACE(pool);
+        settings.pool = pool;
+        expect_same(first, render_scene(foggy_room(), settings));
+    }
+}
+
+}  // namespace
+}  // namespace wavepath
