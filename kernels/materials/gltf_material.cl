@@ -140,8 +140,8 @@ INLINE BsdfSample gltf_sample(const Surface s, const Vec3 wo, const Sample2 u, c
     const float pdf_w = gltf_pdf_w(s, wo, r.wi, through);
     const Vec3 finite = scale3(gltf_eval(s, wo, r.wi, through), pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
     const Reflectance facing = gltf_reflectance(s, wo.z);
-    const float chance = HAS_TRANSMISSION && through ? pmf.through : pmf.specular;
-    const Vec3 taken = HAS_TRANSMISSION && through ? facing.through : facing.specular;
+    const float chance = through ? pmf.through : pmf.specular;
+    const Vec3 taken = through ? facing.through : facing.specular;
     const Vec3 certain = scale3(taken, chance > 0.0f ? 1.0f / chance : 0.0f);
     r.weight = select3(delta, certain, finite);
     r.pdf_w = delta ? PDF_CERTAIN : pdf_w;

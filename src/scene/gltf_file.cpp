@@ -134,6 +134,18 @@ bool leave_image_encoded(
     return true;
 }
 
+// tinygltf takes data URIs of types that it does not know for names of files.
+void decode_data_uris(tinygltf::Model& model) {
+    for (tinygltf::Image& image : model.images) {
+        const std::size_t comma = image.uri.find(',');
+        if (!image.uri.starts_with("data:") || comma == image.uri.npos) continue;
+        const std::string known = "data:application/octet-stream;base64" + image.uri.substr(comma);
+        std::string type;
+        tinygltf::DecodeDataURI(&image.image, type, known, 0, false);
+        image.uri.clear();
+    }
+}
+
 // glTF does not require these matrices [glTF 2.0, section 5.28], tinygltf does.
 void forgive_skins(std::string& error) {
     constexpr std::string_view complaint = "'inverseBindMatrices' property is missing in Skin.\n";
@@ -175,6 +187,7 @@ std::string parse(
                       &model, &error, &warning, reinterpret_cast<const char*>(bytes.data()), size,
                       folder.string());
         forgive_skins(error);
+        decode_data_uris(model);
         if (!parsed && error.empty()) error = "it cannot be parsed";
     } catch (const std::exception& exception) {
         error = fmt::format("it cannot be parsed ({})", exception.what());

@@ -169,16 +169,16 @@ TEST(Masks, ShadowAndReflectAlike) {
 
 // n layers transmit (1 - alpha)^n, without a bounce.
 TEST(Blends, TransmitOneMinusAlphaALayer) {
-    for (const int layers : {1, 2, 5, 20}) {
+    for (const int layers : {1, 3, 10}) {
         Scene scene = scene_named("layers");
         Material material = lambert(grey(0));
         material.alpha_mode = AlphaMode::blend;
-        material.alpha = 0.2F;
+        material.alpha = 0.1F;
         for (int i = 0; i < layers; ++i) add_plate(scene, material, 0.1 * i);
         scene.environment = constant_environment(1);
         const RenderResult result = render_for({}, scene, depth_limited(above(1), 64, 64, 0));
         SCOPED_TRACE(layers);
-        EXPECT_TRUE(has_mean(image_mean(result), std::pow(0.8, layers)));
+        EXPECT_TRUE(has_mean(image_mean(result), std::pow(0.9, layers)));
     }
 }
 
@@ -366,10 +366,11 @@ TEST(Textures, KeepTheFurnace) {
         SCOPED_TRACE(method);
         const RenderResult result = render_scene(
             scene,
-            square_settings(method, perspective({0.2, 0.1, 0.9}, {-0.3, -0.1, -0.9}, 1.6), 64, 96));
-        EXPECT_TRUE(has_mean(shared_mean(result, "R"), 2, {.truth_error = 2e-5}));
-        EXPECT_TRUE(has_mean(shared_mean(result, "B"), 4.0 / 3, {.truth_error = 2e-5}));
-        EXPECT_TRUE(has_mean(shared_mean(result, "G"), 5, {.bias = 0.01, .truth_error = 1e-4}));
+            square_settings(method, perspective({0.2, 0.1, 0.9}, {-0.3, -0.1, -0.9}, 1.6), 32, 96));
+        EXPECT_TRUE(has_mean(shared_mean(result, "R"), 2, {.bias = 0.01, .truth_error = 2e-5}));
+        EXPECT_TRUE(
+            has_mean(shared_mean(result, "B"), 4.0 / 3, {.bias = 0.01, .truth_error = 2e-5}));
+        EXPECT_TRUE(has_mean(shared_mean(result, "G"), 5, {.bias = 0.02, .truth_error = 1e-4}));
     }
 }
 
