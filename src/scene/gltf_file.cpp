@@ -20,12 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 // Sorted.
-<<<<<<< HEAD
-constexpr std::array<std::string_view, 9> supported_extensions{
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_scatter", "KHR_materials_specular",          "KHR_materials_transmission",
-    "KHR_materials_volume",  "KHR_materials_volume_scatter",    "KHR_mesh_quantization"};
-=======
 constexpr auto supported_extensions = std::to_array<std::string_view>({
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
@@ -33,12 +27,15 @@ constexpr auto supported_extensions = std::to_array<std::string_view>({
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
+    "KHR_materials_scatter",
     "KHR_materials_specular",
+    "KHR_materials_transmission",
     "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
 });
->>>>>>> main
 
 // Magic, version, length; length and type of the JSON chunk.
 constexpr std::size_t glb_header_size = 20;
