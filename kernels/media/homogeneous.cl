@@ -168,7 +168,9 @@ INLINE MediumEvent sample_stop_or_pass(
     MediumEvent event = sample_stop(medium, length, swept, pmf, view, rest);
     event.stops = u.v < stopping;
     const Vec3 left = transmittance(tau);
-    event.weight =
-        select3(event.stops, scale3(event.weight, stopping), scale3(left, 1.0f / dot3(pmf, left)));
+    const float passing = dot3(pmf, left);  // 0: rounding alone lets it pass
+    event.weight = select3(
+        event.stops, scale3(event.weight, stopping),
+        scale3(left, passing > 0.0f ? 1.0f / passing : 0.0f));
     return event;
 }

@@ -75,7 +75,8 @@ kernel void sample_distance(
         const uint stacked = PLANE(ids, ID_STACK)[slot];
         const uint level = resumed ? stacked - 1 : stacked;
         const int first = (stacked & 1u) == 0u && level < BRANCH_LEVELS * params.split_depth;
-        branching = resumed | (scatters & first & (DISTANCES != DISTANCE_EXPONENTIAL));
+        branching =
+            resumed | (scatters & first & (DISTANCES != DISTANCE_EXPONENTIAL) & (length > 0.0f));
         if (branching) {
             global float* segment = branch_at(branches, stride, level);
             if (!resumed) {
@@ -133,7 +134,7 @@ kernel void sample_distance(
     const float margin = min(STOP_MARGIN, 0.5f * length);
     const float stop = start + clamp(event.distance, start > 0.0f ? margin : 0.0f, length - margin);
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(event.stops ? HIT_MEDIUM : primitive);
-    PLANE(hits, HIT_T)[slot] = event.stops ? (resumed ? -stop : stop) : end;
+    PLANE(hits, HIT_T)[slot] = event.stops ? (resumed ? -max(stop, FLT_MIN) : stop) : end;
     store3(PLANE(surfaces, SURFACE_X), stride, slot, madd3(origin, direction, stop));
     PLANE(surfaces, SURFACE_MATERIAL)[slot] = as_float(0);  // a valid index for whoever looks
 }
