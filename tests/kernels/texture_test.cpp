@@ -132,11 +132,13 @@ struct TestTexture {
 
 // Points on a lattice finer than the texels, over several repeats and on both sides of zero; exact
 // in float for images of a power of two.
-std::vector<cl_float> lattice(double step) {
+// `off`: from the borders of texels.
+std::vector<cl_float> lattice(double step, double off = 0) {
     std::vector<cl_float> places;
     for (double s = -2.25; s <= 2.25; s += step)
         for (double t = -1.25; t <= 1.25; t += step)
-            places.insert(places.end(), {static_cast<cl_float>(s), static_cast<cl_float>(t)});
+            places.insert(
+                places.end(), {static_cast<cl_float>(s + off), static_cast<cl_float>(t + off)});
     return places;
 }
 
