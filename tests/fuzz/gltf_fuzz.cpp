@@ -131,9 +131,10 @@ void break_json(Json& root, Random& random) {
                 if (element.is_array()) element.push_back(other);
                 break;
             case 2:
-                if (element.is_number_integer())
-                    element = element.get<std::int64_t>() +
-                              static_cast<std::int64_t>(below(random, 9)) - 4;
+                if (element.is_number_integer())  // unsigned: it may wrap
+                    element = static_cast<std::int64_t>(
+                        static_cast<std::uint64_t>(element.get<std::int64_t>()) + below(random, 9) -
+                        4);
                 break;
             case 3:
                 element = other;
