@@ -33,12 +33,12 @@ def stop(message):
 
 
 def read_index(assets):
-    """The rows of INDEX.md that name a model: file, features, credit."""
+    """The rows of INDEX.md that name a model: file, credit."""
     rows = []
     for line in (assets / "INDEX.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.split("|")]
         if len(cells) > 6 and cells[1].startswith("models/"):
-            rows.append({"file": cells[1], "name": cells[1].split("/")[1], "features": cells[2], "credit": cells[6]})
+            rows.append({"file": cells[1], "name": cells[1].split("/")[1], "credit": cells[6]})
     if not rows:
         stop(f"{assets / 'INDEX.md'}: lists no models; name the folder of the sample models")
     return rows
@@ -81,9 +81,9 @@ def write_sheet(rows):
         stop(f"oiiotool: {(run.stdout + run.stderr).strip()}")
     text = ["# Sample models", "", "![sample models](images/contact_sheet.jpg)", "",
             "Models of the glTF Sample Assets as `scripts/contact_sheet.py` renders them, row by row:", "",
-            "| model | shows | by |", "|---|---|---|"]
+            "| model | by |", "|---|---|"]
     for row in rows:
-        text.append(f"| {row['name']} | {row['features']} | {row['credit']} |")
+        text.append(f"| {row['name']} | {row['credit'].replace('Everthing', 'Everything')} |")
     CREDITS.write_text("\n".join(text) + "\n")
 
 

@@ -22,7 +22,9 @@ constexpr int exit_interrupted = 130;
 // Lets CLI11 answer a wrong command line in the one-line form of every other error.
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    spdlog::error("{}; see wavepath --help", error.what());
+    std::string command;
+    for (const CLI::App* sub : app.get_subcommands()) command = sub->get_name() + " ";
+    spdlog::error("{}; see wavepath {}--help", error.what(), command);
     return exit_failure;
 }
 

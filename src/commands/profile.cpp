@@ -1,11 +1,13 @@
 #include "commands/profile.h"
 
-#include "commands/render_options.h"
+#include "commands/interrupt.h"
+#include "commands/run_job.h"
 #include "film/atomic_file.h"
 #include "film/exr_writer.h"
 #include "measure/report.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -57,11 +59,12 @@ void print_rays(const RenderResult& result) {
             result.times.render);
 }
 
-void run(const RenderOptions& options, const std::filesystem::path& json) {
+void run(const RenderOptions& options, const std::filesystem::path& json, bool quiet) {
+    if (quiet) spdlog::set_level(spdlog::level::warn);
     if (!json.empty()) check_writable(json);
     const Device device = open_device(options.device);
     const RenderJob job = prepare_job(options);
-    const RenderResult result = render(device, job.scene, job.settings);
+    const RenderResult result = run_job(device, job, quiet);
     const double samples =
         static_cast<double>(result.samples) * job.settings.width * job.settings.height;
     fmt::print(
@@ -86,6 +89,7 @@ void run(const RenderOptions& options, const std::filesystem::path& json) {
         static_cast<double>(result.pool_bytes) / 1048576.0,
         static_cast<double>(result.film_bytes) / 1048576.0);
     if (!json.empty()) AtomicFile(json).commit(render_report(device, job, result).dump(2) + "\n");
+    if (result.interrupted) throw Interrupted();
 }
 
 }  // namespace
@@ -96,7 +100,9 @@ void add_profile_command(CLI::App& app) {
     const auto json = std::make_shared<std::filesystem::path>();
     add_render_options(*command, *options);
     command->add_option("--json", *json, "Write the figures")->type_name("FILE");
-    command->callback([options, json] { run(*options, *json); });
+    const auto quiet = std::make_shared<bool>(false);
+    command->add_flag("--quiet", *quiet, "Show the figures alone, and warnings");
+    command->callback([options, json, quiet] { run(*options, *json, *quiet); });
 }
 
 }  // namespace wavepath

@@ -2,7 +2,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/progress.h"
-#include "commands/render_options.h"
+#include "commands/run_job.h"
 #include "device/device.h"
 #include "error.h"
 #include "film/atomic_file.h"
@@ -13,9 +13,8 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <map>
 #include <memory>
 
 namespace wavepath {
@@ -29,15 +28,27 @@ struct Outputs {
     bool quiet = false;
 };
 
-void check_outputs(const Outputs& outputs) {
-    for (const auto& path : outputs.images) {
-        if (path.extension() != ".exr" && path.extension() != ".png")
-            throw Error("{}: pictures end in .exr or .png; choose one", path.string());
-        check_writable(path);
+// Inputs and outputs are files of their own, however their names are spelled.
+void check_distinct(const RenderOptions& options, const Outputs& outputs) {
+    std::vector<std::filesystem::path> names = outputs.images;
+    for (const auto& path : {outputs.json, options.scene, options.environment})
+        if (!path.empty()) names.push_back(path);
+    std::map<std::filesystem::path, std::filesystem::path> known;
+    for (const auto& name : names) {
+        const auto [other, is_new] =
+            known.try_emplace(std::filesystem::weakly_canonical(name), name);
+        if (!is_new)
+            throw Error("{} and {} are one file; name two", other->second.string(), name.string());
     }
+}
+
+void check_outputs(const RenderOptions& options, const Outputs& outputs) {
+    for (const auto& path : outputs.images)
+        if (path.extension() != ".exr" && path.extension() != ".png")
+            throw Error("\"{}\": pictures end in .exr or .png; choose one", path.string());
+    check_distinct(options, outputs);
+    for (const auto& path : outputs.images) check_writable(path);
     if (!outputs.json.empty()) check_writable(outputs.json);
-    if (std::ranges::find(outputs.images, outputs.json) != outputs.images.end())
-        throw Error("{}: is both a picture and the report; name two files", outputs.json.string());
     if (!(std::abs(outputs.exposure) <= 100))
         throw Error("--exposure {}: use stops between -100 and 100", outputs.exposure);
 }
@@ -65,32 +76,10 @@ std::map<std::string, std::string> metadata(
 
 void run(const RenderOptions& options, const Outputs& outputs) {
     if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
-    check_outputs(outputs);
+    check_outputs(options, outputs);
     const Device device = open_device(options.device);
     const RenderJob job = prepare_job(options);
-    for (const std::string& line : job.scene.ignored) spdlog::warn("{}: {}", job.scene.name, line);
-    spdlog::info(
-        "{}: {} triangles, {}x{}, {} on {}", job.scene.name, job.scene.triangle_count(),
-        job.settings.width, job.settings.height, job.settings.method.name, device.info.name);
-
-    const InterruptGuard interrupt;
-    Progress progress(job.settings, outputs.quiet);
-    RenderResult result = render(
-        device, job.scene, job.settings, [&](const RenderProgress& state) { progress.show(state); },
-        [&] { return interrupt.requested(); });
-    progress.finish();
-    if (result.samples == 0) {
-        spdlog::warn("interrupted before every pixel had a sample: nothing is written");
-        throw Interrupted();
-    }
-    for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
-    if (result.film.nonfinite.samples > 0)
-        spdlog::warn(
-            "{} samples were not finite, the first in pixel ({}, {}), sample {}; their pixels hold "
-            "NaN or infinity",
-            result.film.nonfinite.samples, result.film.nonfinite.x, result.film.nonfinite.y,
-            result.film.nonfinite.sample);
-
+    RenderResult result = run_job(device, job, outputs.quiet);
     result.film.image.metadata = metadata(device, job, result);
     for (const auto& path : outputs.images) {
         if (path.extension() == ".exr")

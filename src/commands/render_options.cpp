@@ -188,7 +188,7 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
         ->check(CLI::Range(0, 8))
         ->type_name("K");
     app.add_option("--env", o.environment, "Environment map, latitude-longitude .hdr or .exr")
-        ->type_name("MAP");
+        ->type_name("MAP.hdr|.exr");
     app.add_option(
            "--env-radiance", o.environment_radiance, "Constant environment, or the scale of --env")
         ->type_name("R,G,B");

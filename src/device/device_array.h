@@ -22,8 +22,8 @@ class DeviceArray {
         const std::size_t bytes = sizeof(T) * (count > 0 ? count : 1);
         if (bytes > device.info.max_allocation)
             throw Error(
-                "{}: {} MiB needed in one buffer, the device allows {} MiB; use a smaller scene, "
-                "image or --pool, or another --device",
+                "{}: {} MiB needed in one buffer, the device allows {} MiB; use less of it (--size "
+                "for the film, --pool for paths, a smaller scene), or another --device",
                 what, bytes >> 20U, device.info.max_allocation >> 20U);
         buffer_ = cl::Buffer(device.context, CL_MEM_READ_WRITE, bytes);
         prefer_huge_pages(device, buffer_, bytes);

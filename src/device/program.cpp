@@ -215,7 +215,9 @@ cl::Program from_source(
         if (builds(plain, device, "-cl-std=CL1.2")) return plain;
     }
     const std::string log = build_log(program, device);
-    throw Error("{} ({})\n{}", first_error(log), device.info.name, log);
+    throw Error(
+        "{} ({}); mend the folder that WAVEPATH_KERNELS names or unset it, else report it\n{}",
+        first_error(log), device.info.name, log);
 }
 
 std::vector<unsigned char> binary_of(const cl::Program& program) {

@@ -34,7 +34,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
     if (!file_) {
         temporary_.clear();
         throw Error(
-            "{}: cannot be written: folder {}: {}; create it or choose another", path.string(),
+            "{}: cannot be written: folder {}: {}; choose another or see to it", path.string(),
             folder.string(), std::strerror(errno));
     }
 }

@@ -12,6 +12,7 @@ Material glass(double ior, const Medium& medium = {}) {
     Material material = boundary_of(medium);
     material.boundary = Boundary::dielectric;
     material.ior = static_cast<float>(ior);
+    material.roughness = 0;
     return material;
 }
 

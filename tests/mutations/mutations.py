@@ -2,6 +2,7 @@
 """Breaks the kernels on purpose, one way at a time, and asks whether a test notices.
 
     tests/mutations/mutations.py BUILD/tests/wavepath_tests [NAME ...]
+    tests/mutations/mutations.py --check    only whether every text still stands in its file, once
 
 The test program reads its kernels from the folder that WAVEPATH_KERNELS names, so nothing is rebuilt. Prints a table;
 fails if a mutation survives, or if a test fails on kernels that nobody broke.
@@ -9,6 +10,7 @@ fails if a mutation survives, or if a test fails on kernels that nobody broke.
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -32,7 +34,7 @@ MUTATIONS = [
      "weight = pdf_w == PDF_CERTAIN ? 1.0f : share;", "weight = share;",
      "Furnace.StopsAtTheDepthAsked"),
     ("roulette without 1/q", "stages/roulette_compact.cl",
-     "scale3(throughput, 1.0f / survival)", "throughput",
+     "ends ? 1.0f : 1.0f / survival", "1.0f",
      "Furnace.RouletteHasThePredictedVariance"),
     ("depth off by one", "stages/sample_indirect.cl",
      "scattering < params.max_scatterings", "scattering <= params.max_scatterings",
@@ -93,7 +95,7 @@ MUTATIONS = [
      "primitive == HIT_BOUNDARY ? 1.0f : survival", "survival",
      "MediaBoundary.IsNoScattering"),
     ("refraction the wrong way", "materials/dielectric.cl",
-     "const float eta = ior_i / ior_t;", "const float eta = ior_t / ior_i;",
+     "    const float eta = ior_i / ior_t;\n    const float sine2", "    const float eta = ior_t / ior_i;\n    const float sine2",
      "Dielectric.PaneReflectsAndTransmits"),
     ("no n^2 on refraction", "materials/dielectric.cl",
      "s.weight = s.reflects ? 1.0f : eta * eta;", "s.weight = 1.0f;",
@@ -137,12 +139,15 @@ MUTATIONS = [
 ]
 
 
+def check(file, text):
+    count = (KERNELS / file).read_text().count(text)
+    if count != 1:
+        sys.exit(f"{file}: holds '{text}' {count} times, not once; bring tests/mutations/mutations.py up to date")
+
+
 def mutate(folder, file, text, replacement):
     path = folder / file
-    source = path.read_text()
-    if text not in source:
-        sys.exit(f"{file}: no line '{text}' any more; bring tests/mutations/mutations.py up to date")
-    path.write_text(source.replace(text, replacement))
+    path.write_text(path.read_text().replace(text, replacement))
 
 
 def tests_pass(program, tests, kernels):
@@ -154,12 +159,18 @@ def tests_pass(program, tests, kernels):
         return False  # it would not end: noticed
     if run.returncode == 0 and "[  PASSED  ] 0 tests" in run.stdout:
         sys.exit(f"{tests}: no such test")
+    if "kernels do not build" in run.stdout or re.search(r"\.cl:\d+:\d+: ", run.stdout):
+        sys.exit(f"{tests}: the broken kernels do not compile, which proves nothing:\n{run.stdout}")
     return run.returncode == 0
 
 
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
+    for _, file, text, _, _ in MUTATIONS:
+        check(file, text)
+    if sys.argv[1] == "--check":
+        return False
     program, wanted = sys.argv[1], sys.argv[2:]
     mutations = [m for m in MUTATIONS if not wanted or m[0] in wanted]
     survivors = 0

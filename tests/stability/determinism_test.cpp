@@ -109,7 +109,9 @@ TEST(Determinism, OfOneCoreAndTwo) {
                      << test_device().info.platform;
     const TemporaryFolder folder;
     const auto picture = [&](const char* threads) {
+        // the name up to PoCL 3, and since
         const EnvironmentVariable count("POCL_MAX_PTHREAD_COUNT", threads);
+        const EnvironmentVariable newer_count("POCL_CPU_MAX_CU_COUNT", threads);
         const std::string name = std::string("threads_") + threads + ".exr";
         const std::string command =
             std::string("'" WAVEPATH_BINARY "' render '" WAVEPATH_SOURCE_DIR

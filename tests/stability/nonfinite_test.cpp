@@ -62,8 +62,8 @@ TEST(NonFinite, DirectionsAreCounted) {
 TEST(NonFinite, ThroughputsAreCounted) {
     EXPECT_EQ(
         samples_spoilt_by(
-            "stages/sample_indirect.cl", "mul3(carried, weight)",
-            "scale3(mul3(carried, weight), " + right_half + ")"),
+            "stages/sample_indirect.cl", "mul3(child.carried, weight)",
+            "scale3(mul3(child.carried, weight), " + right_half + ")"),
         half);
 }
 

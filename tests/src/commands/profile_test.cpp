@@ -39,7 +39,7 @@ TEST_F(ProfileCommand, AddsUp) {
 }
 
 // Kernels run one after the other while the host waits: by the device's clock they can't take
-// longer than by the host's.
+// longer than by the host's, and they are most of it (some 95 % on an idle machine).
 TEST_F(ProfileCommand, KernelsTakeNoLongerThanTheHostSaw) {
     ASSERT_EQ(
         run("profile " + cornell_box + " --device cpu --size 64x64 --spp 64 --json " +
@@ -48,7 +48,8 @@ TEST_F(ProfileCommand, KernelsTakeNoLongerThanTheHostSaw) {
         0);
     const nlohmann::json report = json("a.json");
     if (!report["profile"]["device_clock"].get<bool>()) GTEST_SKIP() << "no times for kernels";
-    EXPECT_GT(report["profile"]["kernel_seconds"], 0);
+    const double kernels = report["profile"]["kernel_seconds"];
+    EXPECT_GT(kernels, 0.2 * report["times_s"]["render"].get<double>());
     EXPECT_LE(report["profile"]["kernel_seconds"], report["times_s"]["render"]);
 }
 

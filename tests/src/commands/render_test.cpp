@@ -104,7 +104,9 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --spp 4 --time 1", "give one of them");
     expect_refused(cornell_box + " --exposure nan", "--exposure nan");
     expect_refused(cornell_box + " --env-radiance 1e39,1,1", "--env-radiance 1e39,1,1");
-    expect_refused(cornell_box + " --json a.exr -o a.exr", "a.exr: is both");
+    expect_refused(cornell_box + " --json a.exr -o ./a.exr", "are one file");
+    expect_refused(cornell_box + " --json " + cornell_box, "are one file");
+    expect_refused(cornell_box + " --env a.exr -o a.exr", "are one file");
     expect_refused(cornell_box + " --target-error -1", "--target-error");
     expect_refused(cornell_box + " --method photon", "--method");
     expect_refused(cornell_box + " --termination depth:x", "--termination depth:x");

@@ -1,0 +1,37 @@
+#include "commands/run_job.h"
+
+#include "commands/interrupt.h"
+#include "commands/progress.h"
+
+#include <spdlog/spdlog.h>
+
+namespace wavepath {
+
+RenderResult run_job(const Device& device, const RenderJob& job, bool quiet) {
+    for (const std::string& line : job.scene.ignored) spdlog::warn("{}: {}", job.scene.name, line);
+    spdlog::info(
+        "{}: {} triangles, {}x{}, {} on {}; kernels are compiled the first time, for some seconds",
+        job.scene.name, job.scene.triangle_count(), job.settings.width, job.settings.height,
+        job.settings.method.name, device.info.name);
+
+    const InterruptGuard interrupt;
+    Progress progress(job.settings, quiet);
+    RenderResult result = render(
+        device, job.scene, job.settings, [&](const RenderProgress& state) { progress.show(state); },
+        [&] { return interrupt.requested(); });
+    progress.finish();
+    if (result.samples == 0) {
+        spdlog::warn("interrupted before every pixel had a sample: nothing is written");
+        throw Interrupted();
+    }
+    for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
+    if (result.film.nonfinite.samples > 0)
+        spdlog::warn(
+            "{} samples were not finite, the first in pixel ({}, {}), sample {}; their pixels hold "
+            "NaN or infinity",
+            result.film.nonfinite.samples, result.film.nonfinite.x, result.film.nonfinite.y,
+            result.film.nonfinite.sample);
+    return result;
+}
+
+}  // namespace wavepath
