@@ -170,7 +170,7 @@ INLINE MediumEvent sample_stop_or_pass(
     const Vec3 left = transmittance(tau);
     const float passing = dot3(pmf, left);  // 0: rounding alone lets it pass
     event.weight = select3(
-        event.stops, scale3(event.weight, stopping),
+        event.stops, scale3(event.weight, 1.0f / stopping),
         scale3(left, passing > 0.0f ? 1.0f / passing : 0.0f));
     return event;
 }
