@@ -34,7 +34,8 @@ TEST(Agreement, OfAllMethodsThatSeeTheLight) {
         for (const char* channel : {"R", "G", "B"}) {
             SCOPED_TRACE(fmt::format("{}, {}", method, channel));
             EXPECT_TRUE(agree(
-                image_mean(mis, channel), image_mean(other, channel), {.bias = 0.005, .tests = 12}));
+                image_mean(mis, channel), image_mean(other, channel),
+                {.bias = 0.005, .tests = 12}));
         }
     }
 }
