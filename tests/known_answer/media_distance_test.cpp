@@ -141,13 +141,14 @@ TEST(MediaDistance, ChangesNoMeanInACavity) {
         Splits splits = {};
         uint32_t depth = 1;
     };
-    std::vector<Case> cases;
-    for (const Distances distances : all_distances) cases.push_back({"mis", distances});
-    cases.push_back({"path", Distances::uniform, false});
-    cases.push_back({"path", Distances::uniform, false, {2, 3, 2}, 2});
-    cases.push_back({"direct", Distances::mis, true, {3, 2, 2}, 1});
-    cases.push_back({"mis", Distances::exponential, true, {1, 3, 1}, 2});
-    cases.push_back({"mis", Distances::truncated, true, {1, 1, 1}, 0});
+    const std::vector<Case> cases{
+        {"mis", Distances::truncated},
+        {"mis", Distances::equiangular},
+        {"mis", Distances::mis, true, {}, 0},
+        {"path", Distances::uniform, false},
+        {"path", Distances::uniform, false, {2, 2, 2}, 2},
+        {"direct", Distances::mis, true, {3, 2, 1}},
+        {"mis", Distances::exponential, true, {1, 3, 1}}};
     for (const Case& c : cases) {
         SCOPED_TRACE(fmt::format(
             "{}, {}, splits {},{},{} to {}", c.method, name_of(c.distances), c.splits.stops,
@@ -159,7 +160,7 @@ TEST(MediaDistance, ChangesNoMeanInACavity) {
         settings.splits = c.splits;
         settings.split_depth = c.depth;
         const Strictness strictness{
-            .tests = cases.size(), .truth_error = icosphere_sagitta(subdivisions)};
+            .bias = 0.01, .tests = cases.size(), .truth_error = icosphere_sagitta(subdivisions)};
         EXPECT_TRUE(
             has_mean(image_mean(render_for(strictness, scene, settings)), 1.195216705, strictness));
     }
