@@ -179,7 +179,7 @@ TEST(MediaDistance, ChangesNoMeanInARoom) {
     std::vector<RenderResult> results;
     for (const Distances distances : all_distances) {
         RenderSettings settings =
-            square_settings("mis", perspective({0.8, 0.2, 0.9}, {-0.2, -0.4, -0.3}, 1.2), 64, 160);
+            square_settings("mis", perspective({0.8, 0.2, 0.9}, {-0.2, -0.4, -0.3}, 1.2), 64, 224);
         settings.method.distances = distances;
         settings.split_depth = 2;
         settings.seed = static_cast<uint32_t>(results.size() + 1);
