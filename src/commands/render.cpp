@@ -35,8 +35,8 @@ void check_distinct(const RenderOptions& options, const Outputs& outputs) {
         if (!path.empty()) names.push_back(path);
     std::map<std::filesystem::path, std::filesystem::path> known;
     for (const auto& name : names) {
-        const auto [other, is_new] =
-            known.try_emplace(std::filesystem::weakly_canonical(name), name);
+        const auto [other, is_new] = known.try_emplace(
+            std::filesystem::weakly_canonical(std::filesystem::absolute(name)), name);
         if (!is_new)
             throw Error("{} and {} are one file; name two", other->second.string(), name.string());
     }

@@ -104,7 +104,7 @@ TEST(AtomicFile, RefusesWhatIsNoFile) {
         message(folder / "none/a.exr"),
         (folder / "none/a.exr").string() + ": cannot be written: folder " +
             (folder / "none").string() +
-            ": No such file or directory; create it or choose another");
+            ": No such file or directory; choose another or see to it");
     EXPECT_THAT(message(file / "a.exr"), HasSubstr("Not a directory"));
     EXPECT_THAT(message(folder / std::string(256, 'a')), HasSubstr("File name too long"));
     EXPECT_THAT(

@@ -87,7 +87,13 @@ TEST(GltfTexture, ReadsWebpsWhetherRequiredOrNot) {
         gltf.root[list] = {"EXT_texture_webp"};
         const Scene scene = load(gltf);
         ASSERT_THAT(scene.images, SizeIs(1));
-        EXPECT_THAT(scene.images[0].words, testing::Each(0xFF00FF00U));
+        // green, by a codec that loses a little
+        for (const uint32_t word : scene.images[0].words) {
+            EXPECT_LE(word & 255U, 2U);
+            EXPECT_GE(word >> 8U & 255U, 253U);
+            EXPECT_LE(word >> 16U & 255U, 2U);
+            EXPECT_EQ(word >> 24U, 255U);
+        }
     }
 }
 
