@@ -1,5 +1,6 @@
 #include "scene/gltf_texture.h"
 
+#include "scene/gltf_accessor.h"
 #include "scene/image_decoder.h"
 
 #include <algorithm>
@@ -50,13 +51,7 @@ std::span<const unsigned char> encoded_bytes(
                 image.uri.empty() ? "its data" : one_line(image.uri));
         return image.image;
     }
-    const auto& view = file.at(file.model.bufferViews, image.bufferView, "bufferView", where);
-    const auto& data = file.at(file.model.buffers, view.buffer, "buffer", where).data;
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-        file.fail(
-            where, "bufferView {} ends after its buffer of {} bytes; export again",
-            image.bufferView, data.size());
-    return std::span(data).subspan(view.byteOffset, view.byteLength);
+    return view_bytes(file, image.bufferView, where);
 }
 
 }  // namespace
