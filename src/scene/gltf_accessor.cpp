@@ -261,6 +261,24 @@ std::vector<float> read_vectors(
     return values;
 }
 
+std::optional<std::vector<float>> read_attribute(
+    const GltfFile& file,
+    const tinygltf::Primitive& source,
+    const std::string& name,
+    std::size_t width,
+    std::optional<std::size_t> vertex_count,
+    std::string_view where) {
+    const auto found = source.attributes.find(name);
+    if (found == source.attributes.end()) return std::nullopt;
+    const std::string place = fmt::format("{}, {}", where, name);
+    std::vector<float> values = read_vectors(file, found->second, width, place);
+    if (vertex_count && values.size() != width * *vertex_count)
+        file.fail(
+            place, "has {} rows, POSITION has {}; repair the mesh and export again",
+            values.size() / width, *vertex_count);
+    return values;
+}
+
 std::vector<std::uint32_t> read_indices(
     const GltfFile& file, int accessor_index, std::size_t vertex_count, std::string_view where) {
     const auto& accessor = file.at(file.model.accessors, accessor_index, "accessor", where);

@@ -5,7 +5,9 @@
 #include "scene/gltf_file.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,6 +29,16 @@ std::span<const unsigned char> view_bytes(const GltfFile& file, int view, std::s
 // `where` names what the accessor is for: mesh 3 "lamp", POSITION.
 std::vector<float> read_vectors(
     const GltfFile& file, int accessor, std::size_t width, std::string_view where);
+
+// The attribute `name` of a primitive, `width` numbers a row; none where it has none. Fails where
+// it has not `vertex_count` rows, if that is given.
+std::optional<std::vector<float>> read_attribute(
+    const GltfFile& file,
+    const tinygltf::Primitive& source,
+    const std::string& name,
+    std::size_t width,
+    std::optional<std::size_t> vertex_count,
+    std::string_view where);
 
 // Indices, each below `vertex_count` and none the primitive restart value, which glTF forbids.
 std::vector<std::uint32_t> read_indices(

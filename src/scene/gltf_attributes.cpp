@@ -19,15 +19,8 @@ class AttributeReader {
 
     // `width` floats a vertex; empty where the mesh has no such attribute.
     std::vector<float> read(const std::string& name, std::size_t width) const {
-        const auto found = source_.attributes.find(name);
-        if (found == source_.attributes.end()) return {};
-        const std::string where = fmt::format("{}, {}", where_, name);
-        std::vector<float> values = read_vectors(file_, found->second, width, where);
-        if (values.size() != width * vertex_count_)
-            file_.fail(
-                where, "has {} rows, POSITION has {}; repair the mesh and export again",
-                values.size() / width, vertex_count_);
-        return values;
+        return read_attribute(file_, source_, name, width, vertex_count_, where_)
+            .value_or(std::vector<float>{});
     }
 
     // The fourth component of COLOR_0, where it has one that says something.

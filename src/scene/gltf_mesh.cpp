@@ -102,15 +102,8 @@ class PrimitiveReader {
     // Three numbers a vertex, morphed.
     std::optional<std::vector<float>> attribute(
         const char* name, std::optional<std::size_t> vertex_count = std::nullopt) const {
-        const auto found = source_.attributes.find(name);
-        if (found == source_.attributes.end()) return std::nullopt;
-        const std::string where = fmt::format("{}, {}", where_, name);
-        std::vector<float> values = read_vectors(file_, found->second, 3, where);
-        if (vertex_count && values.size() / 3 != *vertex_count)
-            file_.fail(
-                where, "has {} rows, POSITION has {}; repair the mesh and export again",
-                values.size() / 3, *vertex_count);
-        morph(name, values);
+        auto values = read_attribute(file_, source_, name, 3, vertex_count, where_);
+        if (values) morph(name, *values);
         return values;
     }
 
