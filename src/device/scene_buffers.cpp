@@ -47,6 +47,12 @@ std::vector<DeviceMaterial> device_materials(const Scene& scene, const MediaTabl
 
 }  // namespace
 
+std::size_t DeviceTextures::bytes() const {
+    std::size_t bytes = rows.bytes();
+    for (const DeviceArray<cl_uint>& page : pages) bytes += page.bytes();
+    return bytes;
+}
+
 SceneBuffers::SceneBuffers(
     const Device& device,
     const Scene& scene,
@@ -62,11 +68,11 @@ SceneBuffers::SceneBuffers(
       lights(device, tables.lights, "lights"),
       media(device, media_tables.media, "media"),
       environment(device, tables.environment, "environment map"),
-      textures(device, texture_tables.rows, "textures") {
-    for (std::size_t page = 0; page < texels.size(); ++page) {
+      textures{DeviceArray<DeviceTexture>(device, texture_tables.rows, "textures"), {}} {
+    for (std::size_t page = 0; page < textures.pages.size(); ++page) {
         const uint64_t before = page * texture_tables.page_words;
         const uint64_t left = texture_tables.words - std::min(texture_tables.words, before);
-        texels[page] =
+        textures.pages[page] =
             DeviceArray<cl_uint>(device, std::min(left, texture_tables.page_words), "texels");
     }
     write_texels(device, texture_tables.page_words, 0, texture_tables.curves);
@@ -85,7 +91,7 @@ void SceneBuffers::write_texels(
         const uint64_t at = (first + done) % page_words;
         const uint64_t count = std::min(words.size() - done, page_words - at);
         device.queue.enqueueWriteBuffer(
-            texels[(first + done) / page_words].buffer(), CL_TRUE, at * sizeof(cl_uint),
+            textures.pages[(first + done) / page_words].buffer(), CL_TRUE, at * sizeof(cl_uint),
             count * sizeof(cl_uint), &words[done]);
         done += count;
     }
@@ -93,13 +99,7 @@ void SceneBuffers::write_texels(
 
 std::size_t SceneBuffers::bytes() const {
     return nodes.bytes() + blocks.bytes() + triangles.bytes() + materials.bytes() + lights.bytes() +
-           media.bytes() + environment.bytes() + texture_bytes();
-}
-
-std::size_t SceneBuffers::texture_bytes() const {
-    std::size_t bytes = textures.bytes();
-    for (const DeviceArray<cl_uint>& page : texels) bytes += page.bytes();
-    return bytes;
+           media.bytes() + environment.bytes() + textures.bytes();
 }
 
 }  // namespace wavepath
