@@ -40,14 +40,6 @@ struct SceneBuffers {
     DeviceTextures textures;
 
     std::size_t bytes() const;
-
-  private:
-    // From word `first` of all pages on.
-    void write_texels(
-        const Device& device,
-        uint64_t page_words,
-        uint64_t first,
-        const std::vector<cl_uint>& words) const;
 };
 
 }  // namespace wavepath
