@@ -43,9 +43,7 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     return exit_failure;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     if (wavepath::run_device_probe(argc, argv)) return 0;
     spdlog::set_default_logger(spdlog::stderr_color_st("wavepath"));
     spdlog::set_pattern("%^%l%$: %v");
@@ -86,4 +84,15 @@ int main(int argc, char** argv) {
         return exit_failure;
     }
     return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {  // before there is a logger, or of the logger
+        std::fprintf(stderr, "error: %s\n", error.what());
+        return exit_failure;
+    }
 }

@@ -41,7 +41,7 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
         names.end(),
         {"sample_indirect", "roulette_compact", "scan_queue", "accumulate", "fold_film"});
     if (features.split_levels > 0) names.emplace_back("resume_branch");
-    for (std::string& name : names) name = "stages/" + name + ".cl";
+    for (std::string& name : names) name.insert(0, "stages/").append(".cl");
     return names;
 }
 

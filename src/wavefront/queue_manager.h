@@ -105,7 +105,7 @@ class QueueManager {
     uint32_t compact(uint32_t slots, uint32_t active);
 
     const Device& device_;
-    const Features features_;
+    Features features_;
     const SceneBuffers& scene_;
     Profile& profile_;
     PathPool pool_;

@@ -166,7 +166,7 @@ class Schedule {
 }  // namespace
 
 std::string RenderSettings::bias() const {
-    const std::string cut = termination.bias();
+    std::string cut = termination.bias();
     if (target_error <= 0) return cut;
     return "stopped by --target-error: a stopping rule that reads the samples is slightly biased" +
            (cut.empty() ? "" : "; " + cut);
