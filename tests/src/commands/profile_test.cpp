@@ -53,6 +53,22 @@ TEST_F(ProfileCommand, KernelsTakeNoLongerThanTheHostSaw) {
     EXPECT_LE(report["profile"]["kernel_seconds"], report["times_s"]["render"]);
 }
 
+TEST_F(ProfileCommand, LeavesItsSceneAlone) {
+    const std::string scene = path("scene.gltf");
+    std::filesystem::copy_file(cornell_box, scene);
+    const Outcome outcome = run("profile " + scene + " --json " + scene);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.words;
+    EXPECT_NE(outcome.words.find("are one file"), std::string::npos) << outcome.words;
+    EXPECT_EQ(std::filesystem::file_size(scene), std::filesystem::file_size(cornell_box));
+}
+
+TEST_F(ProfileCommand, WritesThePictureItTimed) {
+    const Outcome outcome =
+        run("profile " + cornell_box + " --size 8x8 --spp 1 -o " + path("a.exr"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.words;
+    EXPECT_TRUE(std::filesystem::exists(path("a.exr")));
+}
+
 TEST_F(ProfileCommand, CountsRaysByDepth) {
     const Outcome outcome =
         run("profile " + cornell_box +
