@@ -1,6 +1,7 @@
 // `wavepath profile`: what its numbers have to add up to.
 #include "support/command.h"
 
+#include <algorithm>
 #include <set>
 
 namespace wavepath {
@@ -39,18 +40,24 @@ TEST_F(ProfileCommand, AddsUp) {
 }
 
 // Kernels run one after the other while the host waits: by the device's clock they can't take
-// longer than by the host's, and they are most of it (some 95 % on an idle machine).
-TEST_F(ProfileCommand, KernelsTakeNoLongerThanTheHostSaw) {
-    ASSERT_EQ(
-        run("profile " + cornell_box + " --device cpu --size 64x64 --spp 64 --json " +
-            path("a.json"))
-            .exit_code,
-        0);
-    const nlohmann::json report = json("a.json");
-    if (!report["profile"]["device_clock"].get<bool>()) GTEST_SKIP() << "no times for kernels";
-    const double kernels = report["profile"]["kernel_seconds"];
-    EXPECT_GT(kernels, 0.2 * report["times_s"]["render"].get<double>());
-    EXPECT_LE(report["profile"]["kernel_seconds"], report["times_s"]["render"]);
+// longer than by the host's, and they are most of it (some 95 % on an idle machine; where other
+// work takes the cores in between, one render of several shows it).
+TEST_F(ProfileCommand, KernelsTakeTheTimeThatTheHostSaw) {
+    double best = 0;
+    for (int attempt = 0; attempt < 5 && best < 0.8; ++attempt) {
+        ASSERT_EQ(
+            run("profile " + cornell_box + " --device cpu --size 64x64 --spp 64 --json " +
+                path("a.json"))
+                .exit_code,
+            0);
+        const nlohmann::json report = json("a.json");
+        if (!report["profile"]["device_clock"].get<bool>()) GTEST_SKIP() << "no times for kernels";
+        const double kernels = report["profile"]["kernel_seconds"];
+        const double render = report["times_s"]["render"];
+        ASSERT_LE(kernels, render);
+        best = std::max(best, kernels / render);
+    }
+    EXPECT_GE(best, 0.8);
 }
 
 TEST_F(ProfileCommand, LeavesItsSceneAlone) {
