@@ -40,7 +40,7 @@ kernel void direct_light(
     if (slot >= slots) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
     PLANE(shadows, SHADOW_T_MAX)[slot] = 0.0f;
-    const int in_medium = (HAS_MEDIA & MEDIA_SCATTER) != 0 && primitive == HIT_MEDIUM;
+    const int in_medium = ((HAS_MEDIA & MEDIA_SCATTER) != 0) & (primitive == HIT_MEDIUM);
     if (primitive < 0 && !in_medium) return;
     if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);

@@ -62,6 +62,7 @@ RenderSettings square_settings(
 RenderResult render_scene(const Scene& scene, const RenderSettings& settings) {
     RenderResult result = render(test_device(), scene, settings);
     EXPECT_EQ(result.film.nonfinite.samples, 0U) << scene.name;
+    EXPECT_EQ(result.program.log.find("warning:"), std::string::npos) << result.program.log;
     return result;
 }
 
