@@ -2,11 +2,15 @@
 #include "film/exr_writer.h"
 #include "support/command.h"
 
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <filesystem>
 
 namespace wavepath {
 namespace {
+
+using testing::HasSubstr;
 
 class RenderCommand : public CommandTest {
   protected:
@@ -138,6 +142,22 @@ TEST_F(RenderCommand, RefusesOutputsItCannotWriteBeforeRendering) {
     const Outcome kind = run("render " + cornell_box + " -o " + path("a.jpg"));
     EXPECT_EQ(kind.exit_code, 1);
     EXPECT_NE(kind.words.find(".exr or .png"), std::string::npos) << kind.words;
+}
+
+// PoCL can be told to have 1 GiB, a quarter of it in one buffer.
+TEST_F(RenderCommand, RefusesMoreMemoryThanTheDeviceHas) {
+    const auto refusal = [&](const std::string& size) {
+        const Outcome outcome =
+            run("render " + cornell_box + " --device cpu --quiet -o " + path("a.exr") + size,
+                "POCL_MEMORY_LIMIT=1");
+        EXPECT_EQ(outcome.exit_code, 1) << outcome.words;
+        EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
+        return outcome.words;
+    };
+    EXPECT_THAT(refusal(" --size 2000x2000"), HasSubstr("film: 518 MiB needed"));
+    EXPECT_THAT(
+        refusal(" --size 1300x1300 --pool 1600000"),
+        HasSubstr("units of work: 292 MiB needed in one buffer, the device allows 256 MiB"));
 }
 
 TEST_F(RenderCommand, RefusesAFolderWithoutKernels) {
