@@ -13,30 +13,44 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <string_view>
 
 namespace {
 
 constexpr int exit_failure = 1;
 constexpr int exit_interrupted = 130;
 
+constexpr const char* notes =
+    "Exit status: 0 done; 1 an error, said in one line on standard error; 130 interrupted by "
+    "Ctrl-C,\n"
+    "the picture written with the samples taken so far.\n"
+    "\n"
+    "Environment: OCL_ICD_VENDORS, which OpenCL drivers are seen; POCL_MAX_PTHREAD_COUNT, the "
+    "cores\n"
+    "that PoCL uses; WAVEPATH_KERNELS, a folder of kernels to use instead of the built-in ones;\n"
+    "XDG_CACHE_HOME, where compiled kernels are kept.";
+
 // Lets CLI11 answer a wrong command line in the one-line form of every other error.
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     std::string command;
     for (const CLI::App* sub : app.get_subcommands()) command = sub->get_name() + " ";
-    spdlog::error("{}; see wavepath {}--help", error.what(), command);
+    std::string what = error.what();
+    constexpr std::string_view unconverted = "Could not convert: ";  // then: --option = value
+    if (what.starts_with(unconverted)) what = what.substr(unconverted.size()) + ": not a number";
+    spdlog::error("{}; see wavepath {}--help", what, command);
     return exit_failure;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     if (wavepath::run_device_probe(argc, argv)) return 0;
     spdlog::set_default_logger(spdlog::stderr_color_st("wavepath"));
     spdlog::set_pattern("%^%l%$: %v");
 
     CLI::App app("Wavefront path tracer on OpenCL: glTF in, OpenEXR out", "wavepath");
     app.set_version_flag("--version", WAVEPATH_VERSION);
+    app.footer(notes);
     app.require_subcommand(0, 1);
     std::string completion;
     bool manual = false;
@@ -70,4 +84,15 @@ int main(int argc, char** argv) {
         return exit_failure;
     }
     return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {  // before there is a logger, or of the logger
+        std::fprintf(stderr, "error: %s\n", error.what());
+        return exit_failure;
+    }
 }

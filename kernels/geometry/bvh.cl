@@ -14,6 +14,15 @@ typedef struct {
     int primitive;  // triangle id in scene order, -1: none
 } Hit;
 
+INLINE Hit no_hit(void) {
+    Hit hit;
+    hit.t = INFINITY;
+    hit.u = 0.0f;
+    hit.v = 0.0f;
+    hit.primitive = -1;
+    return hit;
+}
+
 // A ray against slabs: t = plane * inverse + near (or far). The normalised scene lies within 0.5 of
 // the origin, so everything is at most reach = max|o| + 0.5 away along an axis. Rounding moves a
 // slab by at most 4 ulp of that (inverse, product, fma), and the sheared vertices of the triangle
@@ -131,7 +140,7 @@ INLINE void closest_in_block(
         const uint lane = 31u - clz(lanes);
         lanes ^= 1u << lane;
         const uint entry = block->primitives[lane];
-        const int primitive = (int)(HAS_ALPHA ? entry & ~BVH_HOLES : entry);
+        const int primitive = (int)(HAS_ALPHA || HAS_MEDIA ? entry & BVH_PRIMITIVE : entry);
         if (HAS_MEDIA &&
             (ts[lane] < start.t || (ts[lane] == start.t && primitive <= start.primitive)))
             continue;
@@ -147,6 +156,9 @@ INLINE void closest_in_block(
     } while (lanes != 0);
 }
 
+#define PASSES_BOUNDARY 2
+
+// What any_hit says of one block.
 INLINE int any_in_block(
     global const TriangleBlock* block,
     const ShearedRay* ray,
@@ -154,7 +166,8 @@ INLINE int any_in_block(
     const float t_max) {
     float8 t, u, v;
     uint lanes = lane_mask(intersect_block(block, ray, t_max, &t, &u, &v) & (t < t_max));
-    if (!HAS_ALPHA || lanes == 0) return lanes != 0;
+    if (!(HAS_ALPHA || HAS_MEDIA) || lanes == 0) return lanes != 0;
+    int passed = 0;
     float us[8], vs[8];
     vstore8(u, 0, us);
     vstore8(v, 0, vs);
@@ -162,11 +175,15 @@ INLINE int any_in_block(
         const uint lane = 31u - clz(lanes);
         lanes ^= 1u << lane;
         const uint entry = block->primitives[lane];
-        if ((entry & BVH_HOLES) == 0 ||
-            stops_ray(cover, (int)(entry & ~BVH_HOLES), us[lane], vs[lane]))
+        if (HAS_MEDIA && (entry & BVH_BOUNDARY) != 0) {
+            passed = PASSES_BOUNDARY;
+            continue;
+        }
+        if (!HAS_ALPHA || (entry & BVH_HOLES) == 0 ||
+            stops_ray(cover, (int)(entry & BVH_PRIMITIVE), us[lane], vs[lane]))
             return 1;
     }
-    return 0;
+    return passed;
 }
 
 // The closest triangle behind `start` and before t_max that stops the ray: the nearest child is
@@ -232,8 +249,8 @@ Hit closest_hit(
     }
 }
 
-// 1 if a triangle lies in (0, t_max) and stops the ray. Any order of the children will do; not
-// inlined, as above.
+// 1 if a triangle lies in (0, t_max) and stops the ray; else PASSES_BOUNDARY if an index-matched
+// boundary lies there, else 0. Any order of the children will do; not inlined, as above.
 int any_hit(
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
@@ -250,10 +267,13 @@ int any_hit(
     const float end = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
     uint waiting[BVH_STACK];
     int top = 0;
+    int passed = 0;
     uint current = 0;
     for (;;) {
         if (current & BVH_LEAF) {
-            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, end)) return 1;
+            const int found = any_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, end);
+            if (found == 1) return 1;
+            if (HAS_MEDIA) passed |= found;
         } else {
             float8 t_near;
             uint lanes = lane_mask(intersect_node(nodes + current, &slabs, 0.0f, end, &t_near));
@@ -265,7 +285,7 @@ int any_hit(
                 ++top;
             }
         }
-        if (top == 0) return 0;
+        if (top == 0) return passed;
         --top;
         current = waiting[top];
     }

@@ -33,6 +33,21 @@ INLINE uint cross_boundary(
     return enters ? enter_medium(stack, medium) : leave_medium(stack, medium);
 }
 
+// The ray goes on behind the boundary, in these media.
+INLINE void go_on_behind(
+    global float* path_media,
+    const size_t stride,
+    const size_t slot,
+    const uint stack,
+    const float t,
+    const int primitive) {
+    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(stack);
+    PLANE(path_media, MEDIUM_T)[slot] = t;
+    PLANE(path_media, MEDIUM_PRIMITIVE)[slot] = as_float(primitive);
+    PLANE(path_media, MEDIUM_PASSES)
+    [slot] = as_float(as_uint(PLANE(path_media, MEDIUM_PASSES)[slot]) + 1);
+}
+
 INLINE float refractive_index(global const DeviceMedium* media, const uint stack) {
     const uint innermost = innermost_medium(stack);
     return innermost > 0 ? media[(int)max(innermost, 1u) - 1].ior : 1.0f;

@@ -39,7 +39,7 @@ INLINE SineCosine sincos_2pi(const float u) {
 // refitted.
 INLINE float atan2_turns(const float y, const float x) {
     const float ax = fabs(x);
-    const float ay = fabs(y);
+    const float ay = max(y, -y);  // not a pair of fabs, which PoCL's SLP pass makes a vector of
     const float larger = max(ax, ay);
     const float z = larger > 0.0f ? min(ax, ay) / larger : 0.0f;
     // reduce [0, 1] to [-(sqrt 2 - 1), sqrt 2 - 1]: atan z = pi/4 + atan((z - 1) / (z + 1))

@@ -31,6 +31,7 @@ enum HitPlane {
 #define HIT_MEDIUM (-4)  // it stopped in a medium before the surface; HIT_T and SURFACE_X say where
 #define HIT_BOUNDARY (-5)    // it passes an index-matched boundary and goes on as the same ray
 #define HIT_DIELECTRIC (-6)  // it leaves a dielectric boundary as a new ray
+#define HIT_LEAVING (-7)     // it leaves its last medium at HIT_T and meets nothing behind
 
 // surfaces: what was hit, where HIT_PRIMITIVE >= 0
 enum SurfacePlane {

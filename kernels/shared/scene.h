@@ -28,8 +28,9 @@ SHARED_SIZE(DeviceMaterial, 64);
 
 // What a material does to light that meets it.
 #define BOUNDARY_OPAQUE 0u
-#define BOUNDARY_INDEX_MATCHED 1u  // passes straight, tinted by the base colour
-#define BOUNDARY_DIELECTRIC 2u     // reflects and refracts by Fresnel's equations
+#define BOUNDARY_DIELECTRIC 1u     // reflects and refracts by Fresnel's equations
+#define BOUNDARY_INDEX_MATCHED 2u  // and above: passes straight, tinted by the base colour
+#define BOUNDARY_CLEAR 3u          // index-matched without a tint
 
 // A homogeneous medium; lengths are those of the normalised scene.
 typedef struct {

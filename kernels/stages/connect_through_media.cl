@@ -44,15 +44,22 @@ kernel void connect_through_media(
     RayStart start = at_origin();
     const Cover cover =
         ray_cover(TEXTURES, triangles, HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
+    const int met = any_hit(
+        nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, t_max,
+        &cover);
+    if (met == 1) return;
+    // most connections are through at once; the others go from boundary to boundary
     for (;;) {
-        const Hit hit = closest_hit(
-            nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-            t_max, start, &cover);
+        Hit hit = no_hit();
+        if (met == PASSES_BOUNDARY)
+            hit = closest_hit(
+                nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
+                t_max, start, &cover);
         const int arrives = hit.primitive < 0 || hit.t >= t_max;
         if (!arrives) {
             global const float* triangle = triangles + TRIANGLE_FLOATS * hit.primitive;
             const int opaque =
-                materials[as_int(triangle[TRIANGLE_MATERIAL])].boundary != BOUNDARY_INDEX_MATCHED;
+                materials[as_int(triangle[TRIANGLE_MATERIAL])].boundary < BOUNDARY_INDEX_MATCHED;
             if (opaque) return;
         }
         const uint innermost = innermost_medium(stack);

@@ -1,5 +1,6 @@
-// Lets paths through index-matched boundaries: the ray goes on as it is, behind the boundary,
-// tinted by its base colour, in the medium that begins or ends there. That is no scattering.
+// Lets paths through index-matched boundaries but for those that `intersect` passed: the ray goes
+// on as it is, behind the boundary, tinted by its base colour, in the medium that begins or ends
+// there. That is no scattering.
 //
 // reads: rays, surfaces, scene
 //
@@ -27,7 +28,7 @@ kernel void pass_boundary(
     if (primitive < 0) return;
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
-    if (material->boundary != BOUNDARY_INDEX_MATCHED) return;
+    if (material->boundary < BOUNDARY_INDEX_MATCHED) return;
     const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
     const uint crossed = cross_boundary(
         stack, material->medium, triangles + TRIANGLE_FLOATS * primitive,
@@ -39,11 +40,7 @@ kernel void pass_boundary(
     const Vec3 throughput =
         scale3(mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), base), fits);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
-    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(crossed);
-    PLANE(path_media, MEDIUM_T)[slot] = PLANE(hits, HIT_T)[slot];
-    PLANE(path_media, MEDIUM_PRIMITIVE)[slot] = as_float(primitive);
-    PLANE(path_media, MEDIUM_PASSES)
-    [slot] = as_float(as_uint(PLANE(path_media, MEDIUM_PASSES)[slot]) + 1);
+    go_on_behind(path_media, stride, slot, crossed, PLANE(hits, HIT_T)[slot], primitive);
     PLANE(hits, HIT_PRIMITIVE)
     [slot] = as_float(max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
 }

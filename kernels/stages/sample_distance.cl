@@ -45,7 +45,7 @@ kernel void sample_distance(
         store3(PLANE(surfaces, SURFACE_X), stride, slot, origin);  // a stop that is resumed
         PLANE(surfaces, SURFACE_MATERIAL)[slot] = as_float(0);
     }
-    if (primitive < 0) return;
+    if (primitive < 0 && primitive != HIT_LEAVING) return;
     if (innermost == 0) return;
     const float hit_t = PLANE(hits, HIT_T)[slot];
     if (HAS_SPLITS && hit_t == T_RESUMED) return;
@@ -133,7 +133,8 @@ kernel void sample_distance(
 
     const float margin = min(STOP_MARGIN, 0.5f * length);
     const float stop = start + clamp(event.distance, start > 0.0f ? margin : 0.0f, length - margin);
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(event.stops ? HIT_MEDIUM : primitive);
+    const int passes_to = primitive == HIT_LEAVING ? HIT_MISS : primitive;
+    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(event.stops ? HIT_MEDIUM : passes_to);
     PLANE(hits, HIT_T)[slot] = event.stops ? (resumed ? -max(stop, FLT_MIN) : stop) : end;
     store3(PLANE(surfaces, SURFACE_X), stride, slot, madd3(origin, direction, stop));
     PLANE(surfaces, SURFACE_MATERIAL)[slot] = as_float(0);  // a valid index for whoever looks

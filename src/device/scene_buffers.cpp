@@ -47,6 +47,12 @@ std::vector<DeviceMaterial> device_materials(const Scene& scene, const MediaTabl
 
 }  // namespace
 
+std::size_t DeviceTextures::bytes() const {
+    std::size_t bytes = rows.bytes();
+    for (const DeviceArray<cl_uint>& page : pages) bytes += page.bytes();
+    return bytes;
+}
+
 SceneBuffers::SceneBuffers(
     const Device& device,
     const Scene& scene,
@@ -62,44 +68,38 @@ SceneBuffers::SceneBuffers(
       lights(device, tables.lights, "lights"),
       media(device, media_tables.media, "media"),
       environment(device, tables.environment, "environment map"),
-      textures(device, texture_tables.rows, "textures") {
-    for (std::size_t page = 0; page < texels.size(); ++page) {
+      textures{DeviceArray<DeviceTexture>(device, texture_tables.rows, "textures"), {}} {
+    // Pages are mapped whole: oclgrind takes what is written from an offset on for uninitialised.
+    std::array<cl_uint*, TEXTURE_MOST_PAGES> mapped{};
+    for (std::size_t page = 0; page < mapped.size(); ++page) {
         const uint64_t before = page * texture_tables.page_words;
         const uint64_t left = texture_tables.words - std::min(texture_tables.words, before);
-        texels[page] =
-            DeviceArray<cl_uint>(device, std::min(left, texture_tables.page_words), "texels");
+        DeviceArray<cl_uint>& array = textures.pages[page];
+        array = DeviceArray<cl_uint>(device, std::min(left, texture_tables.page_words), "texels");
+        if (array.size() > 0)
+            mapped[page] = static_cast<cl_uint*>(device.queue.enqueueMapBuffer(
+                array.buffer(), CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, array.bytes()));
     }
-    write_texels(device, texture_tables.page_words, 0, texture_tables.curves);
+    const auto copy = [&](uint64_t first, const std::vector<cl_uint>& words) {
+        for (uint64_t done = 0; done < words.size();) {
+            const uint64_t at = (first + done) % texture_tables.page_words;
+            const uint64_t count = std::min(words.size() - done, texture_tables.page_words - at);
+            std::copy_n(
+                &words[done], count, mapped[(first + done) / texture_tables.page_words] + at);
+            done += count;
+        }
+    };
+    copy(0, texture_tables.curves);
     for (std::size_t image = 0; image < texture_tables.first_words.size(); ++image)
-        write_texels(
-            device, texture_tables.page_words, texture_tables.first_words[image],
-            scene.images[image].words);
-}
-
-void SceneBuffers::write_texels(
-    const Device& device,
-    uint64_t page_words,
-    uint64_t first,
-    const std::vector<cl_uint>& words) const {
-    for (uint64_t done = 0; done < words.size();) {
-        const uint64_t at = (first + done) % page_words;
-        const uint64_t count = std::min(words.size() - done, page_words - at);
-        device.queue.enqueueWriteBuffer(
-            texels[(first + done) / page_words].buffer(), CL_TRUE, at * sizeof(cl_uint),
-            count * sizeof(cl_uint), &words[done]);
-        done += count;
-    }
+        copy(texture_tables.first_words[image], scene.images[image].words);
+    for (std::size_t page = 0; page < mapped.size(); ++page)
+        if (mapped[page] != nullptr)
+            device.queue.enqueueUnmapMemObject(textures.pages[page].buffer(), mapped[page]);
 }
 
 std::size_t SceneBuffers::bytes() const {
     return nodes.bytes() + blocks.bytes() + triangles.bytes() + materials.bytes() + lights.bytes() +
-           media.bytes() + environment.bytes() + texture_bytes();
-}
-
-std::size_t SceneBuffers::texture_bytes() const {
-    std::size_t bytes = textures.bytes();
-    for (const DeviceArray<cl_uint>& page : texels) bytes += page.bytes();
-    return bytes;
+           media.bytes() + environment.bytes() + textures.bytes();
 }
 
 }  // namespace wavepath

@@ -11,6 +11,14 @@
 
 namespace wavepath {
 
+// TEXTURE_PARAMETERS of materials/texture.cl
+struct DeviceTextures {
+    DeviceArray<DeviceTexture> rows;  // TEXTURE_USES a material
+    std::array<DeviceArray<cl_uint>, TEXTURE_MOST_PAGES> pages;
+
+    std::size_t bytes() const;
+};
+
 struct SceneBuffers {
     SceneBuffers(
         const Device& device,
@@ -29,19 +37,9 @@ struct SceneBuffers {
     DeviceArray<DeviceMedium> media;
     DeviceArray<EnvironmentEntry> environment;
 
-    DeviceArray<DeviceTexture> textures;  // TEXTURE_USES a material
-    std::array<DeviceArray<cl_uint>, TEXTURE_MOST_PAGES> texels;
+    DeviceTextures textures;
 
     std::size_t bytes() const;
-    std::size_t texture_bytes() const;  // of which textures and texels
-
-  private:
-    // From word `first` of all pages on.
-    void write_texels(
-        const Device& device,
-        uint64_t page_words,
-        uint64_t first,
-        const std::vector<cl_uint>& words) const;
 };
 
 }  // namespace wavepath

@@ -16,6 +16,7 @@ namespace {
 
 constexpr unsigned branching = 8;
 constexpr unsigned block_size = 8;
+constexpr std::size_t small_scene = 8192;  // triangles
 
 // Spatial splits take ten times as long to build. Where a first tree's siblings overlap by less
 // than this part of their area they gained under 1 % in box tests (height field .26, spheres .39),
@@ -224,8 +225,11 @@ Attempt attempt(
     arguments.buildQuality = spatial_splits ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = branching;
     arguments.maxDepth = depth;
-    arguments.sahBlockSize = block_size;
-    arguments.minLeafSize = block_size;  // full blocks: half the memory, as many steps
+    // Full blocks are half the memory and as many steps; a tree that the caches hold anyway gains
+    // by tighter ones, most of all where few triangles span the scene (docs/profiling.md).
+    const bool is_small = count <= small_scene;
+    arguments.sahBlockSize = is_small ? block_size / 2 : block_size;
+    arguments.minLeafSize = is_small ? block_size / 4 : block_size;
     arguments.maxLeafSize = block_size;
     arguments.bvh = bvh.get();
     arguments.primitives = primitives.data();
@@ -266,10 +270,10 @@ Bvh build_bvh(const std::vector<float>& positions) {
     return std::move(best.bvh);
 }
 
-void mark_holes(Bvh& bvh, const std::vector<bool>& holes) {
+void mark_triangles(Bvh& bvh, const std::vector<uint32_t>& marks) {
     for (TriangleBlock& block : bvh.blocks)
         for (shared_uint& primitive : block.primitives)
-            if (primitive != BVH_EMPTY && holes[primitive]) primitive |= BVH_HOLES;
+            if (primitive != BVH_EMPTY) primitive |= marks[primitive];
 }
 
 }  // namespace wavepath

@@ -13,12 +13,16 @@ float dielectric_f0(const Material& material, std::size_t channel) {
     return material.has(TEXTURE_SPECULAR_COLOR) ? f0 : std::min(f0, 1.0F);
 }
 
-cl_uint device_boundary(Boundary boundary) {
-    switch (boundary) {
+bool has_tint(const Material& material) {
+    return material.base_color != Rgb{1, 1, 1} || material.has(TEXTURE_BASE_COLOR);
+}
+
+cl_uint device_boundary(const Material& material) {
+    switch (material.boundary) {
         case Boundary::opaque:
             return BOUNDARY_OPAQUE;
         case Boundary::index_matched:
-            return BOUNDARY_INDEX_MATCHED;
+            return has_tint(material) ? BOUNDARY_INDEX_MATCHED : BOUNDARY_CLEAR;
         case Boundary::dielectric:
             return BOUNDARY_DIELECTRIC;
     }
@@ -43,7 +47,7 @@ DeviceMaterial device_material(const Material& material, uint32_t medium) {
     d.alpha = material.roughness * material.roughness;
     d.transmission = material.transmission;
     d.double_sided = material.double_sided ? 1 : 0;
-    d.boundary = device_boundary(material.boundary);
+    d.boundary = device_boundary(material);
     d.medium = medium;
     return d;
 }

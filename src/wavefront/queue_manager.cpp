@@ -41,7 +41,7 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
         names.end(),
         {"sample_indirect", "roulette_compact", "scan_queue", "accumulate", "fold_film"});
     if (features.split_levels > 0) names.emplace_back("resume_branch");
-    for (std::string& name : names) name = "stages/" + name + ".cl";
+    for (std::string& name : names) name.insert(0, "stages/").append(".cl");
     return names;
 }
 
@@ -127,8 +127,7 @@ bool QueueManager::render(
         const uint32_t ray_items = (slots + features_.rays_per_item - 1) / features_.rays_per_item;
         intersect_.launch(
             device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
-            scene_.textures, scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3],
-            pool_.rays, pool_.media, pool_.ids, pool_.hits);
+            scene_.materials, scene_.textures, pool_.rays, pool_.media, pool_.ids, pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
         if (sample_distance_)
             sample_distance_->launch(
@@ -141,8 +140,7 @@ bool QueueManager::render(
         if (apply_textures_)
             apply_textures_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.textures,
-                scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3], pool_.rays,
-                pool_.hits, pool_.surfaces);
+                pool_.rays, pool_.hits, pool_.surfaces);
         if (pass_boundary_)
             pass_boundary_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
@@ -156,27 +154,23 @@ bool QueueManager::render(
         if (shade_emission_)
             shade_emission_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
-                scene_.textures, scene_.texels[0], scene_.texels[1], scene_.texels[2],
-                scene_.texels[3], pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs,
+                scene_.textures, pool_.rays, pool_.hits, pool_.surfaces, pool_.throughputs,
                 pool_.radiances);
         if (direct_light_)
             direct_light_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
-                scene_.environment, scene_.media, scene_.textures, scene_.texels[0],
-                scene_.texels[1], scene_.texels[2], scene_.texels[3], pool_.rays, pool_.hits,
+                scene_.environment, scene_.media, scene_.textures, pool_.rays, pool_.hits,
                 pool_.surfaces, pool_.throughputs, pool_.ids, pool_.media, pool_.shadows);
         if (occlusion_)
             occlusion_->launch(
                 device_, (slots + features_.rays_per_item - 1) / features_.rays_per_item, params_,
                 slots, scene_.nodes, scene_.blocks, scene_.triangles, scene_.textures,
-                scene_.texels[0], scene_.texels[1], scene_.texels[2], scene_.texels[3],
                 pool_.shadows, pool_.ids, pool_.radiances, pool_.fates);
         if (connect_through_media_)
             connect_through_media_->launch(
                 device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
-                scene_.materials, scene_.media, scene_.textures, scene_.texels[0], scene_.texels[1],
-                scene_.texels[2], scene_.texels[3], pool_.shadows, pool_.ids, pool_.radiances,
-                pool_.fates);
+                scene_.materials, scene_.media, scene_.textures, pool_.shadows, pool_.ids,
+                pool_.radiances, pool_.fates);
         if (refract_boundary_)
             refract_boundary_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,

@@ -81,7 +81,6 @@ class QueueManager {
     using Lights = Array<DeviceLight>;
     using Media = Array<DeviceMedium>;
     using Map = Array<EnvironmentEntry>;
-    using Textures = Array<DeviceTexture>;
     using Nodes = Array<BvhNode>;
     using Blocks = Array<TriangleBlock>;
     using Fates = Array<cl_uchar>;
@@ -106,7 +105,7 @@ class QueueManager {
     uint32_t compact(uint32_t slots, uint32_t active);
 
     const Device& device_;
-    const Features features_;
+    Features features_;
     const SceneBuffers& scene_;
     Profile& profile_;
     PathPool pool_;
@@ -122,18 +121,14 @@ class QueueManager {
 
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats, Floats> generate_rays_;
-    // Textures and four pages of texels are TEXTURE_PARAMETERS of materials/texture.cl.
     Stage<
         Params,
         cl_uint,
         Nodes,
         Blocks,
         Floats,
-        Textures,
-        Uints,
-        Uints,
-        Uints,
-        Uints,
+        Materials,
+        DeviceTextures,
         Floats,
         Floats,
         Uints,
@@ -155,19 +150,7 @@ class QueueManager {
         Floats>>
         sample_distance_;
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Floats,
-        Materials,
-        Textures,
-        Uints,
-        Uints,
-        Uints,
-        Uints,
-        Floats,
-        Floats,
-        Floats>>
+    std::optional<Stage<Params, cl_uint, Floats, Materials, DeviceTextures, Floats, Floats, Floats>>
         apply_textures_;
     std::optional<Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats, Floats, Floats>>
         pass_boundary_;
@@ -179,11 +162,7 @@ class QueueManager {
         Floats,
         Materials,
         Lights,
-        Textures,
-        Uints,
-        Uints,
-        Uints,
-        Uints,
+        DeviceTextures,
         Floats,
         Floats,
         Floats,
@@ -211,11 +190,7 @@ class QueueManager {
         Lights,
         Map,
         Media,
-        Textures,
-        Uints,
-        Uints,
-        Uints,
-        Uints,
+        DeviceTextures,
         Floats,
         Floats,
         Floats,
@@ -224,21 +199,8 @@ class QueueManager {
         Floats,
         Floats>>
         direct_light_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Nodes,
-        Blocks,
-        Floats,
-        Textures,
-        Uints,
-        Uints,
-        Uints,
-        Uints,
-        Floats,
-        Uints,
-        Floats,
-        Fates>>
+    std::optional<
+        Stage<Params, cl_uint, Nodes, Blocks, Floats, DeviceTextures, Floats, Uints, Floats, Fates>>
         occlusion_;
     std::optional<Stage<
         Params,
@@ -248,11 +210,7 @@ class QueueManager {
         Floats,
         Materials,
         Media,
-        Textures,
-        Uints,
-        Uints,
-        Uints,
-        Uints,
+        DeviceTextures,
         Floats,
         Uints,
         Floats,

@@ -84,11 +84,15 @@ RenderParams scene_params(
     return params;
 }
 
-std::vector<bool> triangles_with_holes(const Scene& scene, const NormalisedScene& geometry) {
-    std::vector<bool> holes;
-    for (const uint32_t material : geometry.materials)
-        holes.push_back(scene.materials[material].alpha_mode != AlphaMode::opaque);
-    return holes;
+std::vector<uint32_t> triangle_marks(const Scene& scene, const NormalisedScene& geometry) {
+    std::vector<uint32_t> marks;
+    for (const uint32_t index : geometry.materials) {
+        const Material& material = scene.materials[index];
+        marks.push_back(
+            (material.alpha_mode != AlphaMode::opaque ? BVH_HOLES : 0U) |
+            (material.boundary == Boundary::index_matched ? BVH_BOUNDARY : 0U));
+    }
+    return marks;
 }
 
 // PoCL compiles a kernel at its first launch: one short path through the whole chain, into a film
@@ -162,7 +166,7 @@ class Schedule {
 }  // namespace
 
 std::string RenderSettings::bias() const {
-    const std::string cut = termination.bias();
+    std::string cut = termination.bias();
     if (target_error <= 0) return cut;
     return "stopped by --target-error: a stopping rule that reads the samples is slightly biased" +
            (cut.empty() ? "" : "; " + cut);
@@ -197,7 +201,7 @@ RenderResult render(
     features.split_levels = branches ? settings.split_depth : 0;
     result.times.normalise = watch.lap();
     Bvh bvh = build_bvh(geometry.positions);
-    if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
+    if (features.alpha || features.media) mark_triangles(bvh, triangle_marks(scene, geometry));
     result.times.bvh_build = watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
     // for memory together.
@@ -274,7 +278,7 @@ RenderResult render(
     result.bvh_nodes = bvh.nodes.size();
     result.bvh_blocks = bvh.blocks.size();
     result.scene_bytes = buffers.bytes();
-    result.texture_bytes = buffers.texture_bytes();
+    result.texture_bytes = buffers.textures.bytes();
     result.texture_pages = textures.pages();
     result.pool_bytes = queues.bytes();
     result.film_bytes = film.bytes();

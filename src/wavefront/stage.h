@@ -2,21 +2,39 @@
 #pragma once
 
 #include "device/device_array.h"
+#include "device/scene_buffers.h"
 #include "measure/profile.h"
 
 #include <string>
 
 namespace wavepath {
 
+// How many of a kernel's parameters a value is, and how they are set, from `index` on.
 template <typename T>
-const T& kernel_argument(const T& value) {
-    return value;
-}
+struct KernelArgument {
+    static constexpr cl_uint count = 1;
+    static void set(cl::Kernel& kernel, cl_uint index, const T& value) {
+        kernel.setArg(index, value);
+    }
+};
 
 template <typename T>
-const cl::Buffer& kernel_argument(const DeviceArray<T>& array) {
-    return array.buffer();
-}
+struct KernelArgument<DeviceArray<T>> {
+    static constexpr cl_uint count = 1;
+    static void set(cl::Kernel& kernel, cl_uint index, const DeviceArray<T>& array) {
+        kernel.setArg(index, array.buffer());
+    }
+};
+
+// TEXTURE_PARAMETERS of materials/texture.cl
+template <>
+struct KernelArgument<DeviceTextures> {
+    static constexpr cl_uint count = 1 + TEXTURE_MOST_PAGES;
+    static void set(cl::Kernel& kernel, cl_uint index, const DeviceTextures& textures) {
+        kernel.setArg(index++, textures.rows.buffer());
+        for (const auto& page : textures.pages) kernel.setArg(index++, page.buffer());
+    }
+};
 
 // Args: the parameters in order, buffers as DeviceArray<T>. Swapping two of different type does not
 // compile.
@@ -30,17 +48,19 @@ class Stage {
           local_size_(local_size),
           profile_(profile),
           row_(profile.row(name)) {
-        if (kernel_.getInfo<CL_KERNEL_NUM_ARGS>() != sizeof...(Args))
+        constexpr cl_uint passed = (KernelArgument<Args>::count + ...);
+        if (kernel_.getInfo<CL_KERNEL_NUM_ARGS>() != passed)
             throw Error(
                 "kernel {}: {} parameters, the program passes {}", name,
-                kernel_.getInfo<CL_KERNEL_NUM_ARGS>(), sizeof...(Args));
+                kernel_.getInfo<CL_KERNEL_NUM_ARGS>(), passed);
     }
 
     // One work-item for each of `items`, rounded up to whole work-groups; nothing for none.
     void launch(const Device& device, uint64_t items, const Args&... args) {
         if (items == 0) return;
         cl_uint index = 0;
-        (kernel_.setArg(index++, kernel_argument(args)), ...);
+        ((KernelArgument<Args>::set(kernel_, index, args), index += KernelArgument<Args>::count),
+         ...);
         const uint64_t groups = (items + local_size_ - 1) / local_size_;
         cl::Event event;
         device.queue.enqueueNDRangeKernel(
