@@ -4,6 +4,7 @@
 #include "support/rendering.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace wavepath {
 namespace {
@@ -88,6 +89,27 @@ TEST(Dielectric, BallAbsorbs) {
         strictness, scene,
         square_settings("mis", orthographic({0, 0, 2}, {0, 0, 0}, 0.02), 16, 256));
     EXPECT_TRUE(has_mean(shared_mean(result), .6128773634, strictness));
+}
+
+// The same over the disc, by quadrature, for sigma_a R = 0.25, 1 and 4; facets for a sphere turn
+// what they reflect at its rim. The corners of the square see the sky.
+TEST(Dielectric, BallAbsorbsOverItsDisc) {
+    constexpr double truth[] = {.6572258, .2366257, .0925726};
+    constexpr int subdivisions = 6;
+    Medium medium;
+    medium.sigma_a = {0.25F, 1, 4};
+    Scene scene = scene_named("ball");
+    scene.environment = constant_environment(1);
+    add_icosphere(scene, glass(1.5, medium), {0, 0, 0}, 1, subdivisions);
+    const Strictness strictness{.tests = 3, .truth_error = 10 * icosphere_sagitta(subdivisions)};
+    const RenderResult result = render_for(
+        strictness, scene, square_settings("mis", orthographic({0, 0, 2}, {0, 0, 0}, 2), 64, 64),
+        "B");
+    constexpr double share = std::numbers::pi / 4;
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_TRUE(has_mean(
+            image_mean(result, channels[c]), share * truth[c] + 1 - share, strictness))
+            << channels[c];
 }
 
 // A camera inside sees n^2 of the radiance outside, whatever way it looks.
