@@ -25,7 +25,6 @@ testing::AssertionResult judge(
     const Strictness& s,
     const std::string& what) {
     const double chance = critical * difference.error;
-    std::printf("Z %s z %.2f se %.5f crit %.2f\n", what.c_str(), difference.mean / difference.error, difference.error / scale, critical);
     if (!(std::abs(difference.mean) <= chance + (rounding + s.truth_error) * std::abs(scale)))
         return testing::AssertionFailure()
                << what << ": off by " << difference.mean << " = " << 100 * difference.mean / scale
