@@ -121,7 +121,7 @@ TEST(MediaBoundary, AroundNothingIsNotThere) {
     } cases[] = {
         {"between", {-3, -3, 0.3}, {3, 3, 0.7}},
         {"below the lamp", {-3, -3, 0.2}, {3, 3, 1 - near}},
-        {"around all but the camera", {-3, -3, -1}, {3, 3, 1.5}},
+        {"around all, the camera too", {-3, -3, -1}, {3, 3, 1.5}},
         {"through floor and lamp", {-0.2, -0.3, -1}, {0.25, 0.35, 1.5}},
         {"above the floor", {-3, -3, near}, {3, 3, 0.5}},
         {"in the plane of the floor", {-3, -3, 0}, {3, 3, 0.5}},
