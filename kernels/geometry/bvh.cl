@@ -156,9 +156,11 @@ INLINE void closest_in_block(
     } while (lanes != 0);
 }
 
-#define PASSES_BOUNDARY 2
+// What any_hit says of a ray, and any_in_block of one block.
+#define RAY_PASSES 0
+#define RAY_IS_STOPPED 1
+#define RAY_MEETS_BOUNDARY 2
 
-// What any_hit says of one block.
 INLINE int any_in_block(
     global const TriangleBlock* block,
     const ShearedRay* ray,
@@ -166,8 +168,8 @@ INLINE int any_in_block(
     const float t_max) {
     float8 t, u, v;
     uint lanes = lane_mask(intersect_block(block, ray, t_max, &t, &u, &v) & (t < t_max));
-    if (!(HAS_ALPHA || HAS_MEDIA) || lanes == 0) return lanes != 0;
-    int passed = 0;
+    if (!(HAS_ALPHA || HAS_MEDIA) || lanes == 0) return lanes != 0 ? RAY_IS_STOPPED : RAY_PASSES;
+    int passed = RAY_PASSES;
     float us[8], vs[8];
     vstore8(u, 0, us);
     vstore8(v, 0, vs);
@@ -176,12 +178,12 @@ INLINE int any_in_block(
         lanes ^= 1u << lane;
         const uint entry = block->primitives[lane];
         if (HAS_MEDIA && (entry & BVH_BOUNDARY) != 0) {
-            passed = PASSES_BOUNDARY;
+            passed = RAY_MEETS_BOUNDARY;
             continue;
         }
         if (!HAS_ALPHA || (entry & BVH_HOLES) == 0 ||
             stops_ray(cover, (int)(entry & BVH_PRIMITIVE), us[lane], vs[lane]))
-            return 1;
+            return RAY_IS_STOPPED;
     }
     return passed;
 }
@@ -249,8 +251,9 @@ Hit closest_hit(
     }
 }
 
-// 1 if a triangle lies in (0, t_max) and stops the ray; else PASSES_BOUNDARY if an index-matched
-// boundary lies there, else 0. Any order of the children will do; not inlined, as above.
+// RAY_IS_STOPPED if a triangle lies in (0, t_max) and stops the ray; else RAY_MEETS_BOUNDARY if an
+// index-matched boundary lies there, else RAY_PASSES. Any order of the children will do; not
+// inlined, as above.
 int any_hit(
     global const BvhNode* nodes,
     global const TriangleBlock* blocks,
@@ -267,13 +270,13 @@ int any_hit(
     const float end = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
     uint waiting[BVH_STACK];
     int top = 0;
-    int passed = 0;
+    int passed = RAY_PASSES;
     uint current = 0;
     for (;;) {
         if (current & BVH_LEAF) {
             const int found = any_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, end);
-            if (found == 1) return 1;
-            if (HAS_MEDIA) passed |= found;
+            if (found == RAY_IS_STOPPED) return found;
+            passed |= found;
         } else {
             float8 t_near;
             uint lanes = lane_mask(intersect_node(nodes + current, &slabs, 0.0f, end, &t_near));

@@ -27,20 +27,14 @@ INLINE LightPoint light_point(
     const Bits2 point = scattering_pair(seed, index, branch, scattering, PAIR_LIGHT_POINT);
     global const DeviceLight* light =
         lights + (int)choose_light(lights, params->light_count, choice.u);
+    const int is_triangle = light->kind == LIGHT_TRIANGLE;
+    global const float* triangle =
+        triangles + TRIANGLE_FLOATS * (is_triangle ? (int)light->primitive : 0);
+    const Sample2 b = sample_triangle(unit_pair(point));
     LightPoint r;
-    r.p = vec3(0.0f, 0.0f, 0.0f);
-    r.exists = 0;
-    if (HAS_PUNCTUAL_LIGHTS) {
-        r.p = vec3(light->position_x, light->position_y, light->position_z);
-        r.exists = light->kind == LIGHT_POINT;
-    }
-    if (HAS_AREA_LIGHTS) {
-        const int is_triangle = light->kind == LIGHT_TRIANGLE;
-        global const float* triangle =
-            triangles + TRIANGLE_FLOATS * (is_triangle ? (int)light->primitive : 0);
-        const Sample2 b = sample_triangle(unit_pair(point));
-        r.p = select3(is_triangle, interpolate(triangle, TRIANGLE_CORNERS, b.u, b.v), r.p);
-        r.exists |= is_triangle;
-    }
+    r.p = select3(
+        is_triangle, interpolate(triangle, TRIANGLE_CORNERS, b.u, b.v),
+        vec3(light->position_x, light->position_y, light->position_z));
+    r.exists = is_triangle | (light->kind == LIGHT_POINT);
     return r;
 }

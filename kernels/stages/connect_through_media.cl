@@ -47,21 +47,15 @@ kernel void connect_through_media(
     const int met = any_hit(
         nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, t_max,
         &cover);
-    if (met == 1) return;
+    if (met == RAY_IS_STOPPED) return;
     // most connections are through at once; the others go from boundary to boundary
     for (;;) {
         Hit hit = no_hit();
-        if (met == PASSES_BOUNDARY)
+        if (met == RAY_MEETS_BOUNDARY)
             hit = closest_hit(
                 nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
                 t_max, start, &cover);
         const int arrives = hit.primitive < 0 || hit.t >= t_max;
-        if (!arrives) {
-            global const float* triangle = triangles + TRIANGLE_FLOATS * hit.primitive;
-            const int opaque =
-                materials[as_int(triangle[TRIANGLE_MATERIAL])].boundary < BOUNDARY_INDEX_MATCHED;
-            if (opaque) return;
-        }
         const uint innermost = innermost_medium(stack);
         if (innermost > 0)
             tau = madd3(

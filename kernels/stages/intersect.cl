@@ -71,8 +71,7 @@ kernel void intersect(
             if (medium == 0) break;
             const uint crossed = cross_boundary(
                 stack, medium, triangles + (size_t)TRIANGLE_FLOATS * hit.primitive, direction);
-            const int leaves = (crossed == 0) & !HAS_SPLITS;
-            if (stack != 0 && !leaves) break;
+            if (stack != 0 && (crossed != 0 || HAS_SPLITS)) break;
             const Hit behind = closest_hit(
                 nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
                 INFINITY, ray_start(hit.t, hit.primitive), &cover);

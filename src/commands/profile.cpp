@@ -1,10 +1,7 @@
 #include "commands/profile.h"
 
-#include "commands/interrupt.h"
+#include "commands/outputs.h"
 #include "commands/run_job.h"
-#include "film/atomic_file.h"
-#include "film/exr_writer.h"
-#include "measure/report.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -59,12 +56,12 @@ void print_rays(const RenderResult& result) {
             result.times.render);
 }
 
-void run(const RenderOptions& options, const std::filesystem::path& json, bool quiet) {
-    if (quiet) spdlog::set_level(spdlog::level::warn);
-    if (!json.empty()) check_writable(json);
+void run(const RenderOptions& options, const Outputs& outputs) {
+    if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
+    check_outputs(options, outputs);
     const Device device = open_device(options.device);
     const RenderJob job = prepare_job(options);
-    const RenderResult result = run_job(device, job, quiet);
+    RenderResult result = run_job(device, job, outputs.quiet);
     const double samples =
         static_cast<double>(result.samples) * job.settings.width * job.settings.height;
     fmt::print(
@@ -88,8 +85,7 @@ void run(const RenderOptions& options, const std::filesystem::path& json, bool q
         static_cast<double>(result.scene_bytes) / static_cast<double>(result.triangles),
         static_cast<double>(result.pool_bytes) / 1048576.0,
         static_cast<double>(result.film_bytes) / 1048576.0);
-    if (!json.empty()) AtomicFile(json).commit(render_report(device, job, result).dump(2) + "\n");
-    if (result.interrupted) throw Interrupted();
+    write_outputs(device, job, result, outputs);
 }
 
 }  // namespace
@@ -97,12 +93,10 @@ void run(const RenderOptions& options, const std::filesystem::path& json, bool q
 void add_profile_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("profile", "Time every kernel of a render");
     const auto options = std::make_shared<RenderOptions>();
-    const auto json = std::make_shared<std::filesystem::path>();
+    const auto outputs = std::make_shared<Outputs>();
     add_render_options(*command, *options);
-    command->add_option("--json", *json, "Write the figures")->type_name("FILE");
-    const auto quiet = std::make_shared<bool>(false);
-    command->add_flag("--quiet", *quiet, "Show the figures alone, and warnings");
-    command->callback([options, json, quiet] { run(*options, *json, *quiet); });
+    add_output_options(*command, *outputs);
+    command->callback([options, outputs] { run(*options, *outputs); });
 }
 
 }  // namespace wavepath

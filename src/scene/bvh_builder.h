@@ -17,8 +17,8 @@ struct Bvh {
 // (within 0.5 of the origin: the kernels' margins rest on it); triangles of zero area are left out.
 Bvh build_bvh(const std::vector<float>& positions);
 
-// Marks what lets rays pass: one mark of BVH_HOLES | BVH_BOUNDARY a triangle. Throws Error for more
-// triangles than fit beside the marks.
+// Marks what lets rays pass: one mark of BVH_HOLES | BVH_BOUNDARY a triangle. Ids beside the marks
+// end at BVH_PRIMITIVE, which the memory of a device does before.
 void mark_triangles(Bvh& bvh, const std::vector<uint32_t>& marks);
 
 }  // namespace wavepath

@@ -12,6 +12,9 @@
 
 namespace wavepath {
 
+// Rays that one work-item of `intersect` and `occlusion` traces where they are traced in streams.
+constexpr uint32_t stream_rays = 128;
+
 struct Features {
     bool vertex_normals = false;
     bool vertex_colors = false;
@@ -41,7 +44,7 @@ struct Features {
     bool sample_lobes = false;
     bool weigh_both = false;
     bool sobol = true;
-    uint32_t rays_per_item = 1;  // that a work-item of intersect and occlusion traces
+    uint32_t rays_per_item = 1;  // 1 or stream_rays
 
     bool shading_normals() const { return vertex_normals || normal_maps; }
 

@@ -12,7 +12,6 @@ namespace wavepath {
 namespace {
 
 constexpr std::size_t stream_nodes = 1024;
-constexpr uint32_t stream_rays = 128;
 
 class Stopwatch {
   public:

@@ -13,6 +13,7 @@
 #include "device/program.h"
 #include "scene/bvh_builder.h"
 #include "support/embree_scene.h"
+#include "wavefront/features.h"
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -186,7 +187,7 @@ void measure(
         bvh.build_seconds);
     const DeviceArray<BvhNode> nodes(device, bvh.nodes, "nodes");
     const DeviceArray<TriangleBlock> blocks(device, bvh.blocks, "blocks");
-    const std::array launches{make_launch(device, 1, 64), make_launch(device, 256, 1)};
+    const std::array launches{make_launch(device, 1, 64), make_launch(device, stream_rays, 1)};
     const std::vector<RaySet> sets =
         make_ray_sets(workload, 512, [&](const std::vector<TestRay>& rays) {
             std::vector<TestHit> hits(rays.size());

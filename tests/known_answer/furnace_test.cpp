@@ -140,5 +140,39 @@ TEST(Furnace, VarianceLayerIsTheVarianceOfTheMean) {
     EXPECT_NEAR(layer.error / scatter.error, 1, 0.06);
 }
 
+// Walls that emit touch one another: light points near an edge have samples of tail index 3/2, at
+// the second vertex for every pixel.
+TEST(Furnace, SlopesOfLightSampling) {
+    const auto slope = [&](const char* method) {
+        RenderSettings settings = square_settings(method, inside, 8, 1);
+        settings.termination = {TerminationKind::depth, 2, 1};
+        return error_slope(furnace(), settings, 64, 2048, "B");
+    };
+    EXPECT_NEAR(slope("direct"), -1.0 / 3, 0.1);
+    EXPECT_NEAR(slope("direct-bsdf"), -1.0 / 3, 0.1);
+}
+
+// Survival r <= rho^2: tail index a = ln(1/r) / ln(rho/r) < 2, slope -(1 - 1/a).
+TEST(Furnace, SlopesOfRouletteThatKillsTooMany) {
+    for (const auto& [survival, slope] : {std::pair{0.5F, -0.152}, {0.7F, -0.295}}) {
+        SCOPED_TRACE(survival);
+        RenderSettings settings = square_settings("path", inside, 8, 1);
+        settings.termination = {TerminationKind::roulette_constant, 0, survival};
+        EXPECT_NEAR(error_slope(furnace(), settings, 64, 2048, "B"), slope, 0.07);
+    }
+}
+
+// 100 vertices a path and more; the relative variance is .99 where q is the throughput.
+TEST(Furnace, AlbedoOf99Percent_long) {
+    WAVEPATH_SKIP_UNLESS_LONG();
+    Scene scene = scene_named("bright furnace");
+    add_box(scene, lambert(grey(0.99F), grey(1)), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
+    for (const char* method : {"path", "mis"}) {
+        SCOPED_TRACE(method);
+        const RenderResult result = render_for({}, scene, square_settings(method, inside, 64, 64));
+        EXPECT_TRUE(has_mean(shared_mean(result), 1 / (1 - double{0.99F})));
+    }
+}
+
 }  // namespace
 }  // namespace wavepath

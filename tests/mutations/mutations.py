@@ -92,7 +92,7 @@ MUTATIONS = [
      "select3(event.stops, scattering_of(medium), one)", "select3(event.stops, sigma_t, one)",
      "Homogeneous.DistancesAreUnbiasedInEveryChannel"),
     ("boundaries stop connections", "geometry/bvh.cl",
-     "passed = PASSES_BOUNDARY;\n            continue;", "return 1;",
+     "(entry & BVH_BOUNDARY) != 0", "(entry & BVH_BOUNDARY) == 0",
      "MediaBoundary.AroundNothingIsNotThere"),
     ("roulette once a boundary", "stages/roulette_compact.cl",
      "primitive == HIT_BOUNDARY ? 1.0f : survival", "survival",

@@ -15,8 +15,11 @@ namespace fs = std::filesystem;
 // Half of the picture: columns 8 to 15 of 16.
 const std::string right_half = "(PLANE(ids, ID_PIXEL)[slot] % 16u >= 8u ? NAN : 1.0f)";
 
-uint64_t samples_spoilt_by(
-    const std::string& file, const std::string& text, const std::string& replacement) {
+NonFinite spoilt_by(
+    const std::string& file,
+    const std::string& text,
+    const std::string& replacement,
+    uint64_t samples = 4) {
     const TemporaryFolder folder;
     const fs::path kernels = folder / "kernels";
     fs::copy(WAVEPATH_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive);
@@ -26,7 +29,7 @@ uint64_t samples_spoilt_by(
     const std::size_t at = source.find(text);
     if (at == std::string::npos) {
         ADD_FAILURE() << file << ": no '" << text << "' any more";
-        return 0;
+        return {};
     }
     source.replace(at, text.size(), replacement);
     std::ofstream(kernels / file) << source;
@@ -36,35 +39,52 @@ uint64_t samples_spoilt_by(
     add_square(scene, lambert(grey(0.5F)), {0, 0, 0}, {0, 0, 1}, 4);
     add_square(scene, lambert(grey(0), grey(1)), {0, 0, 1}, {0, 0, -1}, 0.5);
     RenderSettings settings =
-        square_settings("mis", orthographic({0, 0, 0.5}, {0, 0, 0}, 0.1), 16, 4);
+        square_settings("mis", orthographic({0, 0, 0.5}, {0, 0, 0}, 0.1), 16, samples);
     settings.termination = {TerminationKind::depth, 1, 1};
-    return render(test_device(), scene, settings).film.nonfinite.samples;
+    return render(test_device(), scene, settings).film.nonfinite;
 }
 
 constexpr uint64_t half = 16 * 8 * 4;
 
 TEST(NonFinite, ConnectionsAreCounted) {
     EXPECT_EQ(
-        samples_spoilt_by(
+        spoilt_by(
             "stages/direct_light.cl", "    // A product of steps",
-            "    value = scale3(value, " + right_half + ");\n    // A product of steps"),
+            "    value = scale3(value, " + right_half + ");\n    // A product of steps")
+            .samples,
         half);
 }
 
 TEST(NonFinite, DirectionsAreCounted) {
     EXPECT_EQ(
-        samples_spoilt_by(
+        spoilt_by(
             "stages/sample_indirect.cl", "to_world(frame, s.wi)",
-            "scale3(to_world(frame, s.wi), " + right_half + ")"),
+            "scale3(to_world(frame, s.wi), " + right_half + ")")
+            .samples,
         half);
 }
 
 TEST(NonFinite, ThroughputsAreCounted) {
     EXPECT_EQ(
-        samples_spoilt_by(
+        spoilt_by(
             "stages/sample_indirect.cl", "mul3(child.carried, weight)",
-            "scale3(mul3(child.carried, weight), " + right_half + ")"),
+            "scale3(mul3(child.carried, weight), " + right_half + ")")
+            .samples,
         half);
+}
+
+// Samples 37 and 50 of the pixel (5, 3): index 37 with its bits reversed is 0xa4000000.
+TEST(NonFinite, TheFirstSampleIsNamed) {
+    const NonFinite found = spoilt_by(
+        "stages/sample_indirect.cl", "mul3(child.carried, weight)",
+        "scale3(mul3(child.carried, weight), PLANE(ids, ID_PIXEL)[slot] == 53u & "
+        "(PLANE(ids, ID_INDEX)[slot] == 0xa4000000u | PLANE(ids, ID_INDEX)[slot] == 0x4c000000u) "
+        "? NAN : 1.0f)",
+        64);
+    EXPECT_EQ(found.samples, 2U);
+    EXPECT_EQ(found.x, 5U);
+    EXPECT_EQ(found.y, 3U);
+    EXPECT_EQ(found.sample, 37U);
 }
 
 }  // namespace

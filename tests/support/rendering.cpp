@@ -1,5 +1,6 @@
 #include "support/rendering.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -165,6 +166,34 @@ Estimate sample_variance(const RenderResult& result, const std::string& channel)
         fourth += square * square / n;
     }
     return {second * n / (n - 1), std::sqrt((fourth - second * second) / n), n - 1};
+}
+
+double error_slope(
+    const Scene& scene,
+    RenderSettings settings,
+    uint64_t few,
+    uint64_t many,
+    const std::string& channel) {
+    settings.sobol = false;
+    const auto pixels = [&](uint32_t seed) {
+        settings.seed = seed;
+        return render_scene(scene, settings).film.image.channels.at(channel);
+    };
+    const auto median_difference = [&](uint64_t samples) {
+        settings.samples = samples;
+        std::vector<float> differences;
+        for (uint32_t pair = 0; pair < 4; ++pair) {
+            const std::vector<float> a = pixels(2 * pair + 1);
+            const std::vector<float> b = pixels(2 * pair + 2);
+            for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(std::abs(a[i] - b[i]));
+        }
+        const auto middle =
+            differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+        std::ranges::nth_element(differences, middle);
+        return double{*middle};
+    };
+    return std::log(median_difference(many) / median_difference(few)) /
+           std::log(static_cast<double>(many) / static_cast<double>(few));
 }
 
 testing::AssertionResult has_mean(const Estimate& e, double truth, const Strictness& s) {

@@ -65,6 +65,17 @@ std::vector<Estimate> block_means(const RenderResult& result, const std::string&
 // standard error.
 Estimate sample_variance(const RenderResult& result, const std::string& channel = "R");
 
+// d log(error) / d log(samples) between `few` and `many` samples a pixel. The error is the median
+// over pixels and 4 pairs of seeds of the difference between the two of a pair: it needs no truth
+// and no finite variance. Pixels should have like distributions; a median of 64 is good to 15 %, a
+// slope over a factor of 64 then to 0.05.
+double error_slope(
+    const Scene& scene,
+    RenderSettings settings,
+    uint64_t few,
+    uint64_t many,
+    const std::string& channel = "R");
+
 // |mean - truth| within chance, and few enough samples not to be the reason.
 testing::AssertionResult has_mean(
     const Estimate& e, double truth, const Strictness& strictness = {});

@@ -1,6 +1,7 @@
 // `wavepath profile`: what its numbers have to add up to.
 #include "support/command.h"
 
+#include <algorithm>
 #include <set>
 
 namespace wavepath {
@@ -39,18 +40,40 @@ TEST_F(ProfileCommand, AddsUp) {
 }
 
 // Kernels run one after the other while the host waits: by the device's clock they can't take
-// longer than by the host's, and they are most of it (some 95 % on an idle machine).
-TEST_F(ProfileCommand, KernelsTakeNoLongerThanTheHostSaw) {
-    ASSERT_EQ(
-        run("profile " + cornell_box + " --device cpu --size 64x64 --spp 64 --json " +
-            path("a.json"))
-            .exit_code,
-        0);
-    const nlohmann::json report = json("a.json");
-    if (!report["profile"]["device_clock"].get<bool>()) GTEST_SKIP() << "no times for kernels";
-    const double kernels = report["profile"]["kernel_seconds"];
-    EXPECT_GT(kernels, 0.2 * report["times_s"]["render"].get<double>());
-    EXPECT_LE(report["profile"]["kernel_seconds"], report["times_s"]["render"]);
+// longer than by the host's, and they are most of it (some 95 % on an idle machine; where other
+// work takes the cores in between, one render of several shows it).
+TEST_F(ProfileCommand, KernelsTakeTheTimeThatTheHostSaw) {
+    double best = 0;
+    for (int attempt = 0; attempt < 5 && best < 0.8; ++attempt) {
+        ASSERT_EQ(
+            run("profile " + cornell_box + " --device cpu --size 64x64 --spp 64 --json " +
+                path("a.json"))
+                .exit_code,
+            0);
+        const nlohmann::json report = json("a.json");
+        if (!report["profile"]["device_clock"].get<bool>()) GTEST_SKIP() << "no times for kernels";
+        const double kernels = report["profile"]["kernel_seconds"];
+        const double render = report["times_s"]["render"];
+        ASSERT_LE(kernels, render);
+        best = std::max(best, kernels / render);
+    }
+    EXPECT_GE(best, 0.8);
+}
+
+TEST_F(ProfileCommand, LeavesItsSceneAlone) {
+    const std::string scene = path("scene.gltf");
+    std::filesystem::copy_file(cornell_box, scene);
+    const Outcome outcome = run("profile " + scene + " --json " + scene);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.words;
+    EXPECT_NE(outcome.words.find("are one file"), std::string::npos) << outcome.words;
+    EXPECT_EQ(std::filesystem::file_size(scene), std::filesystem::file_size(cornell_box));
+}
+
+TEST_F(ProfileCommand, WritesThePictureItTimed) {
+    const Outcome outcome =
+        run("profile " + cornell_box + " --size 8x8 --spp 1 -o " + path("a.exr"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.words;
+    EXPECT_TRUE(std::filesystem::exists(path("a.exr")));
 }
 
 TEST_F(ProfileCommand, CountsRaysByDepth) {

@@ -103,6 +103,7 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --seed -1", "0 to 4294967295");
     expect_refused(cornell_box + " --spp 4 --time 1", "give one of them");
     expect_refused(cornell_box + " --exposure nan", "--exposure nan");
+    expect_refused(cornell_box + " --exposure abc", "--exposure = abc: not a number");
     expect_refused(cornell_box + " --env-radiance 1e39,1,1", "--env-radiance 1e39,1,1");
     expect_refused(cornell_box + " --json a.exr -o ./a.exr", "are one file");
     expect_refused(cornell_box + " --json " + cornell_box, "are one file");
@@ -118,6 +119,16 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --env-radiance 1,2", "--env-radiance 1,2");
     expect_refused(cornell_box + " --env " + path("no.hdr"), "no.hdr");
     expect_refused(cornell_box + " --no-such-option", "--no-such-option");
+}
+
+TEST_F(RenderCommand, TakesTheSceneBehindItsOutputs) {
+    const std::string tiny = "render --size 4x4 --spp 1 -o " + path("a.exr") + " " + path("b.png");
+    EXPECT_EQ(run(tiny + " " + cornell_box).exit_code, 0);
+    EXPECT_EQ(run(tiny + " -- " + cornell_box + " --quiet").exit_code, 0);
+    const Outcome refused = run(tiny + " " + cornell_box + " --quiet");
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_NE(refused.words.find("a scene stands before -o or behind --"), std::string::npos)
+        << refused.words;
 }
 
 TEST_F(RenderCommand, RefusesOutputsItCannotWriteBeforeRendering) {
