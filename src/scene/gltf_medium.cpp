@@ -45,6 +45,18 @@ class MediumReader {
 
     Medium read() const { return has_extras() ? from_extras() : from_volume(); }
 
+    bool has_scatter_textures() const {
+        if (has_extras()) return false;
+        for (const char* name : {"KHR_materials_scatter", "KHR_materials_volume_scatter"}) {
+            const auto* extension = find_extension(source_.extensions, name);
+            if (extension && std::ranges::any_of(extension->Keys(), [](const std::string& key) {
+                    return key.ends_with("Texture");
+                }))
+                return true;
+        }
+        return false;
+    }
+
     template <typename... Args>
     [[noreturn]] void fail(fmt::format_string<Args...> message, Args&&... args) const {
         file_.fail(where_, message, std::forward<Args>(args)...);
@@ -174,6 +186,15 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
         material.boundary = material.ior == 1 ? Boundary::index_matched : Boundary::dielectric;
         material.medium = reader.read();
         material.transmission = 0;  // of thin walls
+        const bool refracts = material.boundary == Boundary::dielectric;
+        if (refracts && material.has(TEXTURE_METALLIC_ROUGHNESS))
+            ignored.add("roughness textures of volumes", "rendered with roughnessFactor alone");
+        if (material.has(TEXTURE_TRANSMISSION))
+            ignored.add("transmission textures of volumes", "rendered as if they were white");
+        if (reader.has_scatter_textures())
+            ignored.add("textures of what scatters in volumes", "rendered by the factors alone");
+        material.textures[TEXTURE_METALLIC_ROUGHNESS] = {};
+        material.textures[TEXTURE_TRANSMISSION] = {};
     }
 }
 

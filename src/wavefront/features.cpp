@@ -101,10 +101,11 @@ Features features_of(
     f.distances = !media.scatter ? Distances::exponential
                   : method.distances >= Distances::equiangular && !somewhere ? Distances::truncated
                                                                              : method.distances;
-    f.phase_directions = method.phase_directions;
+    // Methods that differ in nothing here share their kernels, which are compiled once.
+    f.phase_directions = method.phase_directions || !media.scatter;
     f.sample_lights = method.sample_lights && !lights.lights.empty();
-    f.sample_lobes = method.sample_lobes;
-    f.weigh_both = method.weigh_both;
+    f.sample_lobes = method.sample_lobes && f.specular;
+    f.weigh_both = method.weigh_both && f.sample_lights;
     f.sobol = sobol;
     return f;
 }

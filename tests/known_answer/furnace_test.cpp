@@ -71,6 +71,43 @@ TEST(Furnace, SplitsChangeNoMean) {
     }
 }
 
+// From every point of a sphere cosine-distributed directions reach all of it alike, so what a
+// vertex emits is drawn anew at each: v = f (1 - f) where a share f emits 1. S directions from
+// every vertex: Var = v sum of (rho^2 / S)^k over the levels, at the cost of sum of S^k rays. That
+// is what splitting buys, in media as well.
+TEST(Furnace, SplitsHaveThePredictedVarianceAndCost) {
+    constexpr float rho = 0.8F;
+    Scene scene = scene_named("two-tone ball");
+    add_icosphere(scene, lambert(grey(rho), grey(1)), {0, 0, 0}, 1, 3, Facing::inward);
+    // the first quarter lies around the corner (-1, phi, 0)
+    split_off(scene, scene.primitives.back().indices.size() / 4, lambert(grey(rho)));
+    for (const uint32_t splits : {1U, 4U}) {
+        SCOPED_TRACE(splits);
+        RenderSettings settings =
+            square_settings("path", perspective({0, 0, 0}, {1, -1.6, 0}, 0.3), 256, 1);
+        settings.sobol = false;
+        settings.termination = {TerminationKind::depth, 3, 1};
+        settings.splits.reflections = splits;
+        settings.split_depth = 3;
+        const RenderResult result = render_scene(scene, settings);
+        constexpr double v = 0.25 * 0.75;
+        double variance = 0;
+        double mean = 0;
+        uint64_t rays = 1;
+        uint64_t nodes = 1;
+        for (int level = 1; level <= 3; ++level) {
+            variance += v * std::pow(double{rho} * rho / splits, level);
+            mean += 0.25 * std::pow(double{rho}, level);
+            rays += nodes *= splits;
+        }
+        // flat faces do not see themselves
+        const Strictness strictness{.bias = 0.05, .tests = 4, .truth_error = 5e-3};
+        EXPECT_TRUE(has_mean(sample_variance(result), variance, strictness));
+        EXPECT_TRUE(has_mean(shared_mean(result), mean, strictness));
+        EXPECT_EQ(result.rays.closest, 65536 * rays);
+    }
+}
+
 // Survival r at every vertex: E X^2 = (1 + rho) / (1 - rho) / (1 - rho^2 / r). Asserted where r >
 // rho^(4/3), so that the fourth moment exists and the measured variance means something.
 TEST(Furnace, RouletteHasThePredictedVariance) {

@@ -185,6 +185,17 @@ Primitive& add_icosphere(
     return add_triangles(scene, material, std::move(positions), std::move(indices));
 }
 
+void split_off(Scene& scene, std::size_t first_index, const Material& material) {
+    Primitive& whole = scene.primitives.back();
+    const auto first = whole.indices.begin() + static_cast<std::ptrdiff_t>(first_index);
+    std::vector<float> corners = whole.positions;
+    std::vector<uint32_t> rest(first, whole.indices.end());
+    whole.indices.erase(first, whole.indices.end());
+    const uint32_t body = scene.instances.back().body;
+    add_triangles(scene, material, std::move(corners), std::move(rest));
+    scene.instances.back().body = body;
+}
+
 double icosphere_sagitta(int subdivisions) {
     // the largest faces of an icosahedron's subdivision have a circumradius of 0.65 /
     // 2^subdivisions
@@ -218,6 +229,10 @@ void transform(Scene& scene, Camera& camera, double scale, const Vec3d& shift) {
             for (float& channel : light.intensity)
                 channel = static_cast<float>(channel * scale * scale);
     }
+    for (Material& material : scene.materials)
+        for (Rgb* per_metre :
+             {&material.medium.sigma_a, &material.medium.sigma_s, &material.medium.emission})
+            for (float& channel : *per_metre) channel = static_cast<float>(channel / scale);
     camera.to_world = moved(camera.to_world, scale, shift);
     camera.x_mag *= scale;
     camera.y_mag *= scale;

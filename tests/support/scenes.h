@@ -45,6 +45,10 @@ Primitive& add_icosphere(
     int subdivisions,
     Facing facing = Facing::outward);
 
+// Gives the triangles of the scene's last primitive, from `first_index` of its indices on, to
+// another primitive of this material. The two are one body.
+void split_off(Scene& scene, std::size_t first_index, const Material& material);
+
 // The sagitta of an icosphere relative to its radius: how far it lies from its sphere.
 double icosphere_sagitta(int subdivisions);
 
@@ -55,7 +59,7 @@ Camera orthographic(const Vec3d& eye, const Vec3d& target, double side);
 Camera close_up(const Vec3d& p, const Vec3d& normal, double height, double footprint);
 
 // Moves everything by world' = scale * world + shift: nodes, lights (intensity by scale^2), and
-// `camera`.
+// `camera`. Media have the same optical thickness after.
 void transform(Scene& scene, Camera& camera, double scale, const Vec3d& shift);
 
 }  // namespace wavepath

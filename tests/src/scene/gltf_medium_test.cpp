@@ -1,6 +1,7 @@
 #include "scene/gltf_medium.h"
 
 #include "support/gltf_builder.h"
+#include "support/images.h"
 
 #include <gmock/gmock.h>
 
@@ -15,6 +16,7 @@ using Json = GltfBuilder::Json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 // An index-matched boundary, to be changed at will.
 Json boundary() {
@@ -137,6 +139,31 @@ TEST(GltfMedium, ReadsDielectricsOfAnyRoughness) {
         EXPECT_EQ(scene.materials[0].roughness, roughness);
         EXPECT_THAT(scene.ignored, IsEmpty());
     }
+}
+
+TEST(GltfMedium, SaysWhichTexturesItDoesNotRead) {
+    const auto line = [](const char* path, double ior) {
+        Json material = boundary();
+        material[Json::json_pointer("/extensions/KHR_materials_ior/ior")] = ior;
+        material[Json::json_pointer(path)] = {{"index", 0}};
+        GltfBuilder gltf = file_with(material);
+        gltf.add("textures", {{"source", 0}});
+        gltf.add(
+            "images",
+            {{"uri", "data:image/png;base64," + base64_of(png_file(1, 1, {9, 9, 9, 255}))}});
+        const Scene scene = load(gltf);
+        for (const Texture& texture : scene.materials[0].textures) EXPECT_FALSE(texture.image);
+        return scene.ignored.empty() ? "" : scene.ignored[0];
+    };
+    const char* const roughness = "/pbrMetallicRoughness/metallicRoughnessTexture";
+    EXPECT_THAT(line(roughness, 1.5), HasSubstr("roughness textures of volumes (1)"));
+    EXPECT_THAT(line(roughness, 1), Not(HasSubstr("roughness")));  // without microfacets
+    EXPECT_THAT(
+        line("/extensions/KHR_materials_transmission/transmissionTexture", 1.5),
+        HasSubstr("transmission textures of volumes (1)"));
+    EXPECT_THAT(
+        line("/extensions/KHR_materials_scatter/multiscatterColorTexture", 1),
+        HasSubstr("textures of what scatters in volumes (1)"));
 }
 
 TEST(GltfMedium, RefusesWhatMeansNothing) {
