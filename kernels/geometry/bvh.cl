@@ -14,15 +14,6 @@ typedef struct {
     int primitive;  // triangle id in scene order, -1: none
 } Hit;
 
-INLINE Hit no_hit(void) {
-    Hit hit;
-    hit.t = INFINITY;
-    hit.u = 0.0f;
-    hit.v = 0.0f;
-    hit.primitive = -1;
-    return hit;
-}
-
 // A ray against slabs: t = plane * inverse + near (or far). The normalised scene lies within 0.5 of
 // the origin, so everything is at most reach = max|o| + 0.5 away along an axis. Rounding moves a
 // slab by at most 4 ulp of that (inverse, product, fma), and the sheared vertices of the triangle
@@ -140,7 +131,7 @@ INLINE void closest_in_block(
         const uint lane = 31u - clz(lanes);
         lanes ^= 1u << lane;
         const uint entry = block->primitives[lane];
-        const int primitive = (int)(HAS_ALPHA || HAS_MEDIA ? entry & BVH_PRIMITIVE : entry);
+        const int primitive = (int)(HAS_ALPHA ? entry & ~BVH_HOLES : entry);
         if (HAS_MEDIA &&
             (ts[lane] < start.t || (ts[lane] == start.t && primitive <= start.primitive)))
             continue;
@@ -156,11 +147,6 @@ INLINE void closest_in_block(
     } while (lanes != 0);
 }
 
-// What any_hit says of a ray, and any_in_block of one block.
-#define RAY_PASSES 0
-#define RAY_IS_STOPPED 1
-#define RAY_MEETS_BOUNDARY 2
-
 INLINE int any_in_block(
     global const TriangleBlock* block,
     const ShearedRay* ray,
@@ -168,8 +154,7 @@ INLINE int any_in_block(
     const float t_max) {
     float8 t, u, v;
     uint lanes = lane_mask(intersect_block(block, ray, t_max, &t, &u, &v) & (t < t_max));
-    if (!(HAS_ALPHA || HAS_MEDIA) || lanes == 0) return lanes != 0 ? RAY_IS_STOPPED : RAY_PASSES;
-    int passed = RAY_PASSES;
+    if (!HAS_ALPHA || lanes == 0) return lanes != 0;
     float us[8], vs[8];
     vstore8(u, 0, us);
     vstore8(v, 0, vs);
@@ -177,15 +162,11 @@ INLINE int any_in_block(
         const uint lane = 31u - clz(lanes);
         lanes ^= 1u << lane;
         const uint entry = block->primitives[lane];
-        if (HAS_MEDIA && (entry & BVH_BOUNDARY) != 0) {
-            passed = RAY_MEETS_BOUNDARY;
-            continue;
-        }
-        if (!HAS_ALPHA || (entry & BVH_HOLES) == 0 ||
-            stops_ray(cover, (int)(entry & BVH_PRIMITIVE), us[lane], vs[lane]))
-            return RAY_IS_STOPPED;
+        if ((entry & BVH_HOLES) == 0 ||
+            stops_ray(cover, (int)(entry & ~BVH_HOLES), us[lane], vs[lane]))
+            return 1;
     }
-    return passed;
+    return 0;
 }
 
 // The closest triangle behind `start` and before t_max that stops the ray: the nearest child is
@@ -251,8 +232,7 @@ Hit closest_hit(
     }
 }
 
-// RAY_IS_STOPPED if a triangle lies in (0, t_max) and stops the ray; else RAY_MEETS_BOUNDARY if an
-// index-matched boundary lies there, else RAY_PASSES. Any order of the children will do; not
+// 1 if a triangle lies in (0, t_max) and stops the ray. Any order of the children will do; not
 // inlined, as above.
 int any_hit(
     global const BvhNode* nodes,
@@ -270,13 +250,10 @@ int any_hit(
     const float end = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
     uint waiting[BVH_STACK];
     int top = 0;
-    int passed = RAY_PASSES;
     uint current = 0;
     for (;;) {
         if (current & BVH_LEAF) {
-            const int found = any_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, end);
-            if (found == RAY_IS_STOPPED) return found;
-            passed |= found;
+            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, end)) return 1;
         } else {
             float8 t_near;
             uint lanes = lane_mask(intersect_node(nodes + current, &slabs, 0.0f, end, &t_near));
@@ -288,7 +265,7 @@ int any_hit(
                 ++top;
             }
         }
-        if (top == 0) return passed;
+        if (top == 0) return 0;
         --top;
         current = waiting[top];
     }

@@ -9,10 +9,7 @@
 #define BVH_LEAF 0x80000000u
 #define BVH_EMPTY 0xFFFFFFFFu
 #define BVH_HOLES 0x80000000u  // of a triangle that lets some rays pass (HAS_ALPHA)
-#define BVH_BOUNDARY \
-    0x40000000u  // of an index-matched boundary, which connections pass (HAS_MEDIA)
-#define BVH_PRIMITIVE 0x3FFFFFFFu
-#define BVH_STACK 96  // entries; the builder refuses a tree that could need more
+#define BVH_STACK 96           // entries; the builder refuses a tree that could need more
 
 typedef struct {
     // [axis][0: low, 1: high][child], normalised scene space; an empty child's box is inverted
@@ -23,8 +20,8 @@ SHARED_SIZE(BvhNode, 224);
 
 typedef struct {
     shared_float vertices[3][3][8];  // [vertex][axis][lane]; unused lanes are degenerate triangles
-    shared_uint primitives[8];       // triangle ids in scene order, | BVH_HOLES, BVH_BOUNDARY;
-                                     // BVH_EMPTY in unused lanes
+    shared_uint primitives[8];  // triangle ids in scene order, | BVH_HOLES; BVH_EMPTY in unused
+                                // lanes
 } TriangleBlock;
 SHARED_SIZE(TriangleBlock, 320);
 

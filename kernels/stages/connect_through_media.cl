@@ -44,18 +44,17 @@ kernel void connect_through_media(
     RayStart start = at_origin();
     const Cover cover =
         ray_cover(TEXTURES, triangles, HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
-    const int met = any_hit(
-        nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, t_max,
-        &cover);
-    if (met == RAY_IS_STOPPED) return;
-    // most connections are through at once; the others go from boundary to boundary
     for (;;) {
-        Hit hit = no_hit();
-        if (met == RAY_MEETS_BOUNDARY)
-            hit = closest_hit(
-                nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-                t_max, start, &cover);
+        const Hit hit = closest_hit(
+            nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
+            t_max, start, &cover);
         const int arrives = hit.primitive < 0 || hit.t >= t_max;
+        if (!arrives) {
+            global const float* triangle = triangles + TRIANGLE_FLOATS * hit.primitive;
+            const int opaque =
+                materials[as_int(triangle[TRIANGLE_MATERIAL])].boundary < BOUNDARY_INDEX_MATCHED;
+            if (opaque) return;
+        }
         const uint innermost = innermost_medium(stack);
         if (innermost > 0)
             tau = madd3(

@@ -11,6 +11,35 @@
 #include "media/medium_stack.cl"
 #include "shared/params.h"
 
+// Not inlined: few slots come here, and PoCL would make all of them take part in vectors of gathers
+// (18 ns an item in fog, 5 this way).
+__attribute__((noinline)) void pass(
+    const size_t stride,
+    const size_t slot,
+    const int primitive,
+    global const DeviceMaterial* material,
+    global const float* triangles,
+    global const float* rays,
+    global const float* surfaces,
+    global float* path_media,
+    global float* hits,
+    global float* throughputs) {
+    const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
+    const uint crossed = cross_boundary(
+        stack, material->medium, triangles + TRIANGLE_FLOATS * primitive,
+        load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));
+    // more media around one another than the stack holds: a NaN, to be found and counted
+    const int too_deep = stack_is_full(stack) & (crossed == enter_medium(stack, material->medium));
+    const float fits = too_deep ? NAN : 1.0f;
+    const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
+    const Vec3 throughput =
+        scale3(mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), base), fits);
+    store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
+    go_on_behind(path_media, stride, slot, crossed, PLANE(hits, HIT_T)[slot], primitive);
+    PLANE(hits, HIT_PRIMITIVE)
+    [slot] = as_float(max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
+}
+
 kernel void pass_boundary(
     constant const RenderParams* restrict settings,
     const uint slots,
@@ -29,18 +58,7 @@ kernel void pass_boundary(
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     if (material->boundary < BOUNDARY_INDEX_MATCHED) return;
-    const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
-    const uint crossed = cross_boundary(
-        stack, material->medium, triangles + TRIANGLE_FLOATS * primitive,
-        load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));
-    // more media around one another than the stack holds: a NaN, to be found and counted
-    const int too_deep = stack_is_full(stack) & (crossed == enter_medium(stack, material->medium));
-    const float fits = too_deep ? NAN : 1.0f;
-    const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
-    const Vec3 throughput =
-        scale3(mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), base), fits);
-    store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
-    go_on_behind(path_media, stride, slot, crossed, PLANE(hits, HIT_T)[slot], primitive);
-    PLANE(hits, HIT_PRIMITIVE)
-    [slot] = as_float(max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
+    pass(
+        stride, slot, primitive, material, triangles, rays, surfaces, path_media, hits,
+        throughputs);
 }

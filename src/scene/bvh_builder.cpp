@@ -270,10 +270,10 @@ Bvh build_bvh(const std::vector<float>& positions) {
     return std::move(best.bvh);
 }
 
-void mark_triangles(Bvh& bvh, const std::vector<uint32_t>& marks) {
+void mark_holes(Bvh& bvh, const std::vector<bool>& holes) {
     for (TriangleBlock& block : bvh.blocks)
         for (shared_uint& primitive : block.primitives)
-            if (primitive != BVH_EMPTY) primitive |= marks[primitive];
+            if (primitive != BVH_EMPTY && holes[primitive]) primitive |= BVH_HOLES;
 }
 
 }  // namespace wavepath

@@ -17,8 +17,7 @@ struct Bvh {
 // (within 0.5 of the origin: the kernels' margins rest on it); triangles of zero area are left out.
 Bvh build_bvh(const std::vector<float>& positions);
 
-// Marks what lets rays pass: one mark of BVH_HOLES | BVH_BOUNDARY a triangle. Ids beside the marks
-// end at BVH_PRIMITIVE, which the memory of a device does before.
-void mark_triangles(Bvh& bvh, const std::vector<uint32_t>& marks);
+// Marks the triangles that let some rays pass (BVH_HOLES); one flag a triangle.
+void mark_holes(Bvh& bvh, const std::vector<bool>& holes);
 
 }  // namespace wavepath

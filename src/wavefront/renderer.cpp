@@ -83,15 +83,11 @@ RenderParams scene_params(
     return params;
 }
 
-std::vector<uint32_t> triangle_marks(const Scene& scene, const NormalisedScene& geometry) {
-    std::vector<uint32_t> marks;
-    for (const uint32_t index : geometry.materials) {
-        const Material& material = scene.materials[index];
-        marks.push_back(
-            (material.alpha_mode != AlphaMode::opaque ? BVH_HOLES : 0U) |
-            (material.boundary == Boundary::index_matched ? BVH_BOUNDARY : 0U));
-    }
-    return marks;
+std::vector<bool> triangles_with_holes(const Scene& scene, const NormalisedScene& geometry) {
+    std::vector<bool> holes;
+    for (const uint32_t material : geometry.materials)
+        holes.push_back(scene.materials[material].alpha_mode != AlphaMode::opaque);
+    return holes;
 }
 
 // PoCL compiles a kernel at its first launch: one short path through the whole chain, into a film
@@ -200,7 +196,7 @@ RenderResult render(
     features.split_levels = branches ? settings.split_depth : 0;
     result.times.normalise = watch.lap();
     Bvh bvh = build_bvh(geometry.positions);
-    if (features.alpha || features.media) mark_triangles(bvh, triangle_marks(scene, geometry));
+    if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
     result.times.bvh_build = watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
     // for memory together.
