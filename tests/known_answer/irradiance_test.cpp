@@ -3,8 +3,6 @@
 // sampling and the power heuristic.
 #include "support/rendering.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace wavepath {

@@ -44,7 +44,7 @@ NonFinite spoilt_by(
     return render(test_device(), scene, settings).film.nonfinite;
 }
 
-constexpr uint64_t half = 16 * 8 * 4;
+constexpr uint64_t half = 16ULL * 8 * 4;
 
 TEST(NonFinite, ConnectionsAreCounted) {
     EXPECT_EQ(
