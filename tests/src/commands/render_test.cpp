@@ -57,7 +57,7 @@ TEST_F(RenderCommand, WritesPicturesAndAReport) {
 
 TEST_F(RenderCommand, NamesTheBiasOfADepthCut) {
     run("render " + cornell_box + " --size 4x4 --spp 1 --termination depth:2 -o " + path("d.exr"));
-    EXPECT_NE(read_exr(path("d.exr")).metadata.at("wavepath.bias").find("2"), std::string::npos);
+    EXPECT_NE(read_exr(path("d.exr")).metadata.at("wavepath.bias").find('2'), std::string::npos);
 }
 
 TEST_F(RenderCommand, NamesTheMethodsOfMediaWhereThereAreMedia) {
