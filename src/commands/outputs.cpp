@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -22,6 +23,10 @@ bool is_picture(const std::filesystem::path& path) {
     return path.extension() == ".exr" || path.extension() == ".png";
 }
 
+std::filesystem::path real_path(const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+}
+
 // Inputs and outputs are files of their own, however their names are spelled.
 void check_distinct(const RenderOptions& options, const Outputs& outputs) {
     std::vector<std::filesystem::path> names = outputs.images;
@@ -29,8 +34,7 @@ void check_distinct(const RenderOptions& options, const Outputs& outputs) {
         if (!path.empty()) names.push_back(path);
     std::map<std::filesystem::path, std::filesystem::path> known;
     for (const auto& name : names) {
-        const auto [other, is_new] = known.try_emplace(
-            std::filesystem::weakly_canonical(std::filesystem::absolute(name)), name);
+        const auto [other, is_new] = known.try_emplace(real_path(name), name);
         if (!is_new)
             throw Error("{} and {} are one file; name two", other->second.string(), name.string());
     }
@@ -82,6 +86,15 @@ void check_outputs(const RenderOptions& options, const Outputs& outputs) {
     if (!outputs.json.empty()) check_writable(outputs.json);
     if (!(std::abs(outputs.exposure) <= 100))
         throw Error("--exposure {}: use stops between -100 and 100", outputs.exposure);
+}
+
+void check_outputs_spare(const Scene& scene, const Outputs& outputs) {
+    std::vector<std::filesystem::path> names = outputs.images;
+    if (!outputs.json.empty()) names.push_back(outputs.json);
+    for (const auto& name : names)
+        if (std::ranges::find(scene.files, real_path(name), real_path) != scene.files.end())
+            throw Error(
+                "{}: belongs to {}; choose another name for the output", name.string(), scene.name);
 }
 
 void write_outputs(

@@ -19,6 +19,9 @@ void add_output_options(CLI::App& app, Outputs& outputs);
 // output or an input as well.
 void check_outputs(const RenderOptions& options, const Outputs& outputs);
 
+// Throws Error for an output that is one of the files that the scene was read from.
+void check_outputs_spare(const Scene& scene, const Outputs& outputs);
+
 // Throws Interrupted at the end if Ctrl-C stopped the render.
 void write_outputs(
     const Device& device, const RenderJob& job, RenderResult& result, const Outputs& outputs);

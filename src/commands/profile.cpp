@@ -61,6 +61,7 @@ void run(const RenderOptions& options, const Outputs& outputs) {
     check_outputs(options, outputs);
     const Device device = open_device(options.device);
     const RenderJob job = prepare_job(options);
+    check_outputs_spare(job.scene, outputs);
     RenderResult result = run_job(device, job, outputs.quiet);
     const double samples =
         static_cast<double>(result.samples) * job.settings.width * job.settings.height;

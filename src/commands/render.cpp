@@ -17,6 +17,7 @@ void run(const RenderOptions& options, const Outputs& outputs) {
     check_outputs(options, outputs);
     const Device device = open_device(options.device);
     const RenderJob job = prepare_job(options);
+    check_outputs_spare(job.scene, outputs);
     RenderResult result = run_job(device, job, outputs.quiet);
     write_outputs(device, job, result, outputs);
 }

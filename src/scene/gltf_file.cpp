@@ -59,6 +59,13 @@ bool is_file_beside_scene(const std::string& path, void*) {
     return fs::path(path).is_absolute() && fs::is_regular_file(path, status);
 }
 
+// Notes the file in a std::vector<fs::path>.
+bool read_and_note(
+    std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void* files) {
+    static_cast<std::vector<fs::path>*>(files)->emplace_back(path);
+    return tinygltf::ReadWholeFile(bytes, error, path, nullptr);
+}
+
 // tinygltf would decode every image while it parses, and fail for one that it cannot decode. Those
 // in buffer views are left there: their range has not been checked yet.
 bool leave_image_encoded(
@@ -95,13 +102,13 @@ void forgive_skins(std::string& error) {
 }
 
 // What tinygltf holds against the file, also where it claims success; empty: nothing.
-std::string parse(
-    std::span<const unsigned char> bytes, const fs::path& folder, tinygltf::Model& model) {
+std::string parse(std::span<const unsigned char> bytes, const fs::path& folder, GltfFile& file) {
+    tinygltf::Model& model = file.model;
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(leave_image_encoded, nullptr);
     parser.SetFsCallbacks(
-        {is_file_beside_scene, tinygltf::ExpandFilePath, tinygltf::ReadWholeFile,
-         tinygltf::WriteWholeFile, nullptr});
+        {is_file_beside_scene, tinygltf::ExpandFilePath, read_and_note, tinygltf::WriteWholeFile,
+         &file.files});
     const auto size = static_cast<unsigned int>(bytes.size());
     std::string error, warning;
     try {
@@ -162,7 +169,7 @@ void check_required_extensions(const GltfFile& file) {
 GltfFile read_gltf_file(const fs::path& path) {
     constexpr int max_nesting = 256;
     std::vector<unsigned char> bytes = read_bytes(path);
-    GltfFile file{path.filename().string(), {}};
+    GltfFile file{path.filename().string(), {}, {}};
     if (bytes.size() > std::numeric_limits<unsigned int>::max())
         throw Error(
             "{}: is larger than 4 GiB; keep buffers in .bin files beside a .gltf", file.name);
@@ -175,7 +182,7 @@ GltfFile read_gltf_file(const fs::path& path) {
 
     if (const auto json = with_placeholders(json_text(bytes), is_binary(bytes)))
         bytes = with_json(bytes, *json);
-    const std::string error = parse(bytes, fs::absolute(path).parent_path(), file.model);
+    const std::string error = parse(bytes, fs::absolute(path).parent_path(), file);
     // Version and extensions are known even after a failure, and often its reason: they go first.
     check_version(file);
     check_required_extensions(file);

@@ -19,6 +19,7 @@ namespace wavepath {
 struct GltfFile {
     std::string name;  // without folders, for messages
     tinygltf::Model model;
+    std::vector<std::filesystem::path> files;  // its buffers and images beside it
 
     // `message` says what is wrong, then, after a semicolon, what to do.
     template <typename... Args>

@@ -140,6 +140,7 @@ Scene load_gltf(
     const GltfFile file = read_gltf_file(path);
     Scene scene;
     scene.name = path.string();
+    scene.files = file.files;
 
     Ignored ignored;
     scene.materials = read_materials(file, ignored);

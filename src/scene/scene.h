@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -142,8 +143,9 @@ struct Environment {
 };
 
 struct Scene {
-    std::string name;                 // its file
-    std::vector<Material> materials;  // at least one
+    std::string name;                          // its file
+    std::vector<std::filesystem::path> files;  // that it was read from beside that one
+    std::vector<Material> materials;           // at least one
     std::vector<TextureImage> images;
     std::vector<Primitive> primitives;
     std::vector<Instance> instances;    // of primitives, in depth-first order of the node tree

@@ -207,7 +207,7 @@ TEST(Irradiance, OfAFarLightByChance_long) {
 TEST(Irradiance, InAGapOfAHundredthByLightSampling_long) {
     WAVEPATH_SKIP_UNLESS_LONG();
     expect_irradiance_by_force(
-        {{0, 0, 0.99}, {0, 0, 1}, pi * 0.99967278693645, 1e-2}, "direct", 8192);
+        {{0, 0, 0.99}, {0, 0, 1}, pi * 0.99967278693645, 1e-2}, "direct", 20000);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 namespace wavepath {
 namespace {
@@ -158,6 +159,23 @@ TEST_F(RenderCommand, RefusesMoreMemoryThanTheDeviceHas) {
     EXPECT_THAT(
         refusal(" --size 1300x1300 --pool 1600000"),
         HasSubstr("units of work: 292 MiB needed in one buffer, the device allows 256 MiB"));
+}
+
+TEST_F(RenderCommand, RefusesToReplaceWhatTheSceneIsMadeOf) {
+    std::ofstream(path("body.png")) << "a picture";
+    std::ofstream(path("scene.gltf"))
+        << R"({"asset":{"version":"2.0"},"images":[{"uri":"body.png"}],"buffers":[{"byteLength":36,)"
+           R"("uri":"data:application/octet-stream;base64,)" +
+               std::string(48, 'A') +
+               R"("}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+               R"("componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[0,0,0]}],)"
+               R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],)"
+               R"("scenes":[{"nodes":[0]}]})";
+    const Outcome outcome =
+        run("render " + path("scene.gltf") + " --look-at 0,0,1,0,0,0 -o " + path("body.png"));
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.words, HasSubstr("body.png: belongs to "));
+    EXPECT_EQ(std::filesystem::file_size(path("body.png")), 9U);
 }
 
 TEST_F(RenderCommand, RefusesAFolderWithoutKernels) {
