@@ -77,7 +77,7 @@ void add_output_options(CLI::App& app, Outputs& outputs) {
         ->type_name("FILE");
     app.add_option("--exposure", outputs.exposure, "Of the PNG: scales by 2^EV")->type_name("EV");
     app.add_option("--json", outputs.json, "Write a report of the render")->type_name("FILE");
-    app.add_flag("--quiet", outputs.quiet, "Say nothing but warnings and errors");
+    app.add_flag("--quiet", outputs.quiet, "Say nothing on the way but warnings and errors");
 }
 
 void check_outputs(const RenderOptions& options, const Outputs& outputs) {

@@ -92,7 +92,7 @@ TEST(Dielectric, BallAbsorbs) {
 }
 
 // The same over the square abs(x), abs(y) < 0.6, by quadrature, for sigma_a R = 0.25, 0.5 and 1.
-// Near // the rim facets are no sphere: they turn some rays inside beyond the critical angle, where
+// Near the rim facets are no sphere: they turn some rays inside beyond the critical angle, where
 // they stay and are absorbed, which takes 0.1 % off the whole disc.
 TEST(Dielectric, BallAbsorbsAwayFromItsCentre) {
     constexpr double truth[] = {.6299092719, .4053282999, .1825763998};

@@ -1,6 +1,7 @@
 // The layers of what a camera ray meets first.
 #include "support/rendering.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace wavepath {
