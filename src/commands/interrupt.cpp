@@ -1,6 +1,9 @@
 #include "commands/interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
 
 namespace wavepath {
 
@@ -11,6 +14,9 @@ volatile std::sig_atomic_t interrupt_requested = 0;
 void on_interrupt(int) {
     interrupt_requested = 1;
     std::signal(SIGINT, SIG_DFL);
+    constexpr std::string_view words =
+        "\nstopping after this pass; Ctrl-C again ends at once, without a picture\n";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, words.data(), words.size());
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -23,21 +22,24 @@ bool is_picture(const std::filesystem::path& path) {
     return path.extension() == ".exr" || path.extension() == ".png";
 }
 
-std::filesystem::path real_path(const std::filesystem::path& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+// However their names are spelled or linked; of files that are not there yet the names decide.
+bool one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code failure;
+    if (std::filesystem::equivalent(a, b, failure)) return true;
+    const auto real_a = std::filesystem::weakly_canonical(std::filesystem::absolute(a), failure);
+    if (failure) return false;
+    return real_a == std::filesystem::weakly_canonical(std::filesystem::absolute(b), failure);
 }
 
-// Inputs and outputs are files of their own, however their names are spelled.
-void check_distinct(const RenderOptions& options, const Outputs& outputs) {
-    std::vector<std::filesystem::path> names = outputs.images;
-    for (const auto& path : {outputs.json, options.scene, options.environment})
-        if (!path.empty()) names.push_back(path);
-    std::map<std::filesystem::path, std::filesystem::path> known;
-    for (const auto& name : names) {
-        const auto [other, is_new] = known.try_emplace(real_path(name), name);
-        if (!is_new)
-            throw Error("{} and {} are one file; name two", other->second.string(), name.string());
-    }
+std::vector<std::filesystem::path> files_of(const Outputs& outputs) {
+    std::vector<std::filesystem::path> files = outputs.images;
+    if (!outputs.json.empty()) files.push_back(outputs.json);
+    return files;
+}
+
+// The report's bytes; names of files need not be UTF-8.
+std::string text_of(const nlohmann::json& json, int indent) {
+    return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::map<std::string, std::string> metadata(
@@ -55,7 +57,7 @@ std::map<std::string, std::string> metadata(
         {"wavepath.device", device.info.platform + ", " + device.info.name},
         {"wavepath.driver", device.info.driver},
         {"wavepath.build", build_text()},
-        {"wavepath.settings", settings_report(job).dump()},
+        {"wavepath.settings", text_of(settings_report(job), -1)},
     };
     for (const std::string& warning : result.warnings) m["wavepath.warning"] += warning + "\n";
     return m;
@@ -80,21 +82,17 @@ void add_output_options(CLI::App& app, Outputs& outputs) {
     app.add_flag("--quiet", outputs.quiet, "Say nothing on the way but warnings and errors");
 }
 
-void check_outputs(const RenderOptions& options, const Outputs& outputs) {
-    check_distinct(options, outputs);
-    for (const auto& path : outputs.images) check_writable(path);
-    if (!outputs.json.empty()) check_writable(outputs.json);
+void check_outputs(const Outputs& outputs, std::vector<std::filesystem::path> inputs) {
     if (!(std::abs(outputs.exposure) <= 100))
         throw Error("--exposure {}: use stops between -100 and 100", outputs.exposure);
-}
-
-void check_outputs_spare(const Scene& scene, const Outputs& outputs) {
-    std::vector<std::filesystem::path> names = outputs.images;
-    if (!outputs.json.empty()) names.push_back(outputs.json);
-    for (const auto& name : names)
-        if (std::ranges::find(scene.files, real_path(name), real_path) != scene.files.end())
-            throw Error(
-                "{}: belongs to {}; choose another name for the output", name.string(), scene.name);
+    for (const auto& output : files_of(outputs)) {
+        check_writable(output);
+        for (const auto& other : inputs) {
+            if (!other.empty() && one_file(output, other))
+                throw Error("{} and {} are one file; name two", output.string(), other.string());
+        }
+        inputs.push_back(output);
+    }
 }
 
 void write_outputs(
@@ -110,7 +108,7 @@ void write_outputs(
             result.samples, result.times.render, relative_error_text(result.film.relative_error));
     }
     if (!outputs.json.empty())
-        AtomicFile(outputs.json).commit(render_report(device, job, result).dump(2) + "\n");
+        AtomicFile(outputs.json).commit(text_of(render_report(device, job, result), 2) + "\n");
     if (!result.interrupted) return;
     spdlog::warn("interrupted: there are {} samples a pixel", result.samples);
     throw Interrupted();

@@ -15,12 +15,9 @@ struct Outputs {
 // Options for `outputs`, whose values beforehand are the defaults.
 void add_output_options(CLI::App& app, Outputs& outputs);
 
-// Throws Error, before any work is done, for a file that can't be written, or that is another
-// output or an input as well.
-void check_outputs(const RenderOptions& options, const Outputs& outputs);
-
-// Throws Error for an output that is one of the files that the scene was read from.
-void check_outputs_spare(const Scene& scene, const Outputs& outputs);
+// Throws Error for an output that can't be written, that is one of the inputs,
+// or that is named twice.
+void check_outputs(const Outputs& outputs, std::vector<std::filesystem::path> inputs);
 
 // Throws Interrupted at the end if Ctrl-C stopped the render.
 void write_outputs(

@@ -164,6 +164,9 @@ DeviceInfo describe_empty_platform(const cl::Platform& platform, uint32_t platfo
     info.unusable = "the platform has no device";
     if (info.platform == "rusticl")
         info.unusable += " (Rusticl has those that RUSTICL_ENABLE names)";
+    if (is_pocl(info))
+        info.unusable +=
+            " (PoCL has none where it cannot write its cache; name a folder by POCL_CACHE_DIR)";
     return info;
 }
 

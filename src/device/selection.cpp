@@ -72,8 +72,8 @@ std::size_t select_device(const std::vector<DeviceInfo>& devices, const std::str
     if (unusable == devices.end())
         throw Error("--device {}: no such device; there are:{}", selector, listing(devices));
     throw Error(
-        "device {}: cannot be used: {}; name another with --device, there are:{}",
-        device_label(*unusable), unusable->unusable, listing(devices));
+        "device {}: cannot be used: {}{}", device_label(*unusable), unusable->unusable,
+        devices.size() > 1 ? "; name another with --device, there are:" + listing(devices) : "");
 }
 
 }  // namespace wavepath

@@ -20,7 +20,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
     }
     if (!path.has_filename() || (fs::exists(status) && !fs::is_regular_file(status))) {
         throw Error(
-            "\"{}\": is not the name of a file; name one, such as image.exr", path.string());
+            "\"{}\": is not the name of a regular file; choose another", path.string());
     }
     if (fs::exists(status)) path_ = fs::canonical(path);  // replace the file, not a link to it
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace wavepath {
 
@@ -263,6 +264,10 @@ RenderResult render(
     }
 
     result.film = develop(device, film, result.samples, result.batches);
+    if (result.batches > 1 && !std::isfinite(result.film.relative_error))
+        result.warnings.emplace_back(
+            "the variance layer is not finite: squares of the radiance exceed 32 bits; dim the "
+            "lights");
     result.profile = profile.rows();
     result.device_clock = profile.device_clock();
     result.rays = queues.ray_counts();

@@ -2,6 +2,7 @@
 #include "film/exr_writer.h"
 #include "support/command.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -126,6 +127,49 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --no-such-option", "--no-such-option");
 }
 
+TEST_F(RenderCommand, RefusesOutputsThatAreOneFileHoweverTheyAreLinked) {
+    std::ofstream(path("a.exr")) << "a file";
+    std::filesystem::create_hard_link(path("a.exr"), path("hard.exr"));
+    std::filesystem::create_symlink("a.exr", path("soft.exr"));
+    std::filesystem::create_symlink("loop.exr", path("loop.exr"));
+    for (const char* name : {"hard.exr", "soft.exr"})
+        expect_refused(
+            cornell_box + " -o " + path("a.exr") + " --json " + path(name), "are one file");
+    expect_refused(cornell_box + " --json " + path("loop.exr"), "choose another name");
+    expect_refused(
+        cornell_box + " --json " + path(std::string(300, 'a')), "choose another name");
+    expect_refused(cornell_box + " --json /dev/null", "is not the name of a regular file");
+    EXPECT_EQ(std::filesystem::file_size(path("a.exr")), 6U);
+}
+
+TEST_F(RenderCommand, ReportsScenesWhoseNamesAreNotUtf8) {
+    const std::string scene = path("caf\xe9.gltf");
+    std::filesystem::copy(cornell_box, scene);
+    const Outcome outcome =
+        run("render " + scene + " --size 4x4 --spp 1 --quiet -o " + path("a.exr") + " --json " +
+            path("a.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.words;
+    EXPECT_EQ(json("a.json")["scene"]["name"], path("caf\uFFFD.gltf"));
+}
+
+// However slow the machine: Ctrl-C comes later and later, until it finds a sample in every pixel.
+TEST_F(RenderCommand, CtrlCWritesWhatThereIs) {
+    const std::string render = " " WAVEPATH_BINARY " render " + cornell_box +
+                               " --size 16x16 --time 1000 -o " + path("a.exr") + " > " +
+                               path("words") + " 2>&1";
+    for (int seconds = 1; seconds < 300 && !std::filesystem::exists(path("a.exr")); seconds *= 2) {
+        const int status =
+            std::system(fmt::format("timeout -s INT --preserve-status {}{}", seconds, render).c_str());
+        EXPECT_EQ(WEXITSTATUS(status), 130) << folder.read("words");
+    }
+    const std::string words = folder.read("words");
+    EXPECT_THAT(words, HasSubstr("Ctrl-C again ends at once"));
+    EXPECT_THAT(
+        words, HasSubstr(fmt::format(
+                   "interrupted: there are {} samples a pixel",
+                   read_exr(path("a.exr")).metadata.at("wavepath.samples"))));
+}
+
 TEST_F(RenderCommand, TakesTheSceneBehindItsOutputs) {
     const std::string tiny = "render --size 4x4 --spp 1 -o " + path("a.exr") + " " + path("b.png");
     EXPECT_EQ(run(tiny + " " + cornell_box).exit_code, 0);
@@ -174,7 +218,7 @@ TEST_F(RenderCommand, RefusesToReplaceWhatTheSceneIsMadeOf) {
     const Outcome outcome =
         run("render " + path("scene.gltf") + " --look-at 0,0,1,0,0,0 -o " + path("body.png"));
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.words, HasSubstr("body.png: belongs to "));
+    EXPECT_THAT(outcome.words, HasSubstr("are one file"));
     EXPECT_EQ(std::filesystem::file_size(path("body.png")), 9U);
 }
 

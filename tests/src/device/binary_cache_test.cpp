@@ -6,12 +6,15 @@
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wavepath {
 namespace {
@@ -43,6 +46,12 @@ int answer(const Device& device, const cl::Program& program) {
     return value;
 }
 
+std::filesystem::path only_entry_of(const TemporaryFolder& folder) {
+    const auto entries = std::filesystem::directory_iterator(folder / "wavepath");
+    EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
+    return std::filesystem::directory_iterator(folder / "wavepath")->path();
+}
+
 class BinaryCacheOn : public testing::TestWithParam<const char*> {
   protected:
     void SetUp() override {
@@ -63,12 +72,6 @@ class BinaryCacheOn : public testing::TestWithParam<const char*> {
         return report.from_cache;
     }
 
-    std::filesystem::path only_entry() const {
-        const auto entries = std::filesystem::directory_iterator(folder_ / "wavepath");
-        EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
-        return std::filesystem::directory_iterator(folder_ / "wavepath")->path();
-    }
-
     TemporaryFolder folder_;
     std::optional<EnvironmentVariable> cache_;
     EnvironmentVariable rusticl_{"RUSTICL_ENABLE", "llvmpipe"};
@@ -82,7 +85,7 @@ TEST_P(BinaryCacheOn, SecondBuildComesFromTheCache) {
 
 TEST_P(BinaryCacheOn, ADamagedEntryIsBuiltAgainAndReplaced) {
     built_from_cache();
-    const std::filesystem::path entry = only_entry();
+    const std::filesystem::path entry = only_entry_of(folder_);
     std::ifstream file(entry, std::ios::binary);
     const std::string intact(std::istreambuf_iterator<char>(file), {});
     std::string flipped = intact;
@@ -103,7 +106,7 @@ TEST_P(BinaryCacheOn, ABinaryTheDriverRefusesIsBuiltAgain) {
     if (device_->info.correctly_rounded) options += " -cl-fp32-correctly-rounded-divide-sqrt";
     const BinaryCache cache(*device_, source, options);
     cache.store({'n', 'o', ' ', 'p', 'r', 'o', 'g', 'r', 'a', 'm'});
-    ASSERT_EQ(only_entry(), cache.path());
+    ASSERT_EQ(only_entry_of(folder_), cache.path());
     EXPECT_FALSE(built_from_cache());
     EXPECT_TRUE(built_from_cache());
 }
@@ -149,6 +152,30 @@ TEST(BinaryCache, LiesWhereXdgSays) {
         BinaryCache(device, source, "").path().parent_path(), "/home/somebody/.cache/wavepath");
     const EnvironmentVariable homeless("HOME");
     EXPECT_TRUE(BinaryCache(device, source, "").path().empty());
+}
+
+// Another process replaces the entry while this one reads it.
+TEST(BinaryCache, AnEntryIsWholeWhileAnotherProcessWritesIt) {
+    const Device device = *open("pocl");
+    const TemporaryFolder folder;
+    const EnvironmentVariable variable("XDG_CACHE_HOME", folder.path().string());
+    const BinaryCache cache(device, source, "");
+    const std::vector<unsigned char> ours(std::size_t{1} << 20U, 'b');
+    const std::vector<unsigned char> theirs(std::size_t{1} << 20U, 'a');
+    const pid_t writer = fork();
+    if (writer == 0) {
+        for (int i = 0; i < 200; ++i) cache.store(theirs);
+        _exit(0);
+    }
+    int status = 0;
+    while (waitpid(writer, &status, WNOHANG) == 0) {
+        cache.store(ours);
+        const auto binary = cache.load();
+        ASSERT_TRUE(binary.has_value()) << "an entry of two processes, or half of one";
+        ASSERT_TRUE(*binary == ours || *binary == theirs);
+    }
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(only_entry_of(folder), cache.path()) << "a temporary was left";
 }
 
 // Off PoCL, that is: fetching a binary of PoCL's takes seconds.

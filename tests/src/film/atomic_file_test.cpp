@@ -86,7 +86,7 @@ TEST(AtomicFile, RemovesTheTemporaryWhereRenamingFails) {
     EXPECT_THAT(
         error_of([&] { file.commit("x"); }), HasSubstr("a: cannot be written: Is a directory"));
     EXPECT_THAT(
-        error_of([&] { AtomicFile again(folder / "a"); }), HasSubstr("is not the name of a file"));
+        error_of([&] { AtomicFile again(folder / "a"); }), HasSubstr("is not the name of a regular file"));
 }
 
 TEST(AtomicFile, RefusesWhatIsNoFile) {
@@ -95,10 +95,10 @@ TEST(AtomicFile, RefusesWhatIsNoFile) {
     const auto message = [](const std::filesystem::path& path) {
         return error_of([&] { const AtomicFile unused(path); });
     };
-    EXPECT_EQ(message(""), "\"\": is not the name of a file; name one, such as image.exr");
+    EXPECT_EQ(message(""), "\"\": is not the name of a regular file; choose another");
     for (const std::filesystem::path& path :
          {folder.path(), folder / "new/", std::filesystem::path("/dev/null")}) {
-        EXPECT_THAT(message(path), HasSubstr("is not the name of a file")) << path;
+        EXPECT_THAT(message(path), HasSubstr("is not the name of a regular file")) << path;
     }
     EXPECT_EQ(
         message(folder / "none/a.exr"),

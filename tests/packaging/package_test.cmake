@@ -1,0 +1,20 @@
+# Makes the Debian package and reads what it says of itself.
+#   cmake -DBUILD=DIR -DFOLDER=DIR -P package_test.cmake
+find_program(DPKG_DEB dpkg-deb)
+find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+if(NOT DPKG_DEB OR NOT DPKG_SHLIBDEPS)
+  message("skipped: no dpkg-deb or no dpkg-shlibdeps")
+  return()
+endif()
+file(REMOVE_RECURSE ${FOLDER})
+execute_process(COMMAND cpack -G DEB --config ${BUILD}/CPackConfig.cmake -B ${FOLDER} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB package ${FOLDER}/*.deb)
+execute_process(COMMAND ${DPKG_DEB} -f ${package} Depends OUTPUT_VARIABLE depends COMMAND_ERROR_IS_FATAL ANY)
+foreach(needed IN ITEMS "pocl-opencl-icd \\| opencl-icd" "ocl-icd-libopencl1" "libembree" "libtinygltf")
+  if(NOT depends MATCHES "${needed}")
+    message(FATAL_ERROR "the package does not depend on ${needed}, but on ${depends}")
+  endif()
+endforeach()
+
+execute_process(COMMAND ${DPKG_DEB} -x ${package} ${FOLDER}/unpacked COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${FOLDER}/unpacked/usr/bin/wavepath --version COMMAND_ERROR_IS_FATAL ANY)
