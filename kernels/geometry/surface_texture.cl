@@ -67,6 +67,12 @@ INLINE Cover full_cover(void) {
     return ray_cover(texture_memory(0, 0, 0, 0, 0), 0, 0);
 }
 
+// What closest_hit and any_hit take: nothing where no surface has holes, for the struct in memory
+// made shadow rays 4 % slower and others up to 5 % (docs/profiling.md).
+INLINE const Cover* holes_in(const Cover* cover) {
+    return HAS_ALPHA ? cover : 0;
+}
+
 // Whether the ray is stopped at this point of a triangle. A share of all rays, chosen by their key
 // and the triangle's id: so the order of the tree decides nothing, nor does a triangle that stands
 // in two leaves count twice.

@@ -47,7 +47,7 @@ kernel void connect_through_media(
     for (;;) {
         const Hit hit = closest_hit(
             nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-            t_max, start, &cover);
+            t_max, start, holes_in(&cover));
         const int arrives = hit.primitive < 0 || hit.t >= t_max;
         if (!arrives) {
             global const float* triangle = triangles + TRIANGLE_FLOATS * hit.primitive;

@@ -64,7 +64,7 @@ kernel void intersect(
         const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
         Hit hit = closest_hit(
             nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-            INFINITY, load_start(path_media, stride, slot), &cover);
+            INFINITY, load_start(path_media, stride, slot), holes_in(&cover));
         uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
         while (HAS_MEDIA) {
             const uint medium = clear_medium(triangles, materials, hit.primitive);
@@ -74,7 +74,7 @@ kernel void intersect(
             if (stack != 0 && (crossed != 0 || HAS_SPLITS)) break;
             const Hit behind = closest_hit(
                 nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-                INFINITY, ray_start(hit.t, hit.primitive), &cover);
+                INFINITY, ray_start(hit.t, hit.primitive), holes_in(&cover));
             if (stack != 0) {
                 if (behind.primitive < 0) hit.primitive = HIT_LEAVING;
                 break;

@@ -43,7 +43,7 @@ kernel void occlusion(
             nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
             PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
             PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
-            PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, &cover);
+            PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, holes_in(&cover));
         if (!blocked) add_connection(shadows, radiances, stride, slot);
         return;
     }

@@ -64,9 +64,8 @@ kernel void closest(
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
-        const Cover cover = full_cover();
         hits[i] = closest_hit(
-            nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), &cover);
+            nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
         return;
     }
     stream_rays(count, rays, nodes, blocks, hits, i, 0);
@@ -79,8 +78,7 @@ kernel void blocked(
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
-        const Cover cover = full_cover();
-        hits[i].primitive = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], &cover) - 1;
+        hits[i].primitive = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], 0) - 1;
         return;
     }
     stream_rays(count, rays, nodes, blocks, hits, i, 1);

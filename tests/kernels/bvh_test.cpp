@@ -1,5 +1,6 @@
-// WAVEPATH_HIT_RAYS: rays in all, 10^6 by default; 10^7 before a release. WAVEPATH_INSIDE_RAYS:
-// those from inside closed meshes, 10^6 by default; 10^9 takes an hour or two.
+// WAVEPATH_HIT_RAYS: rays in all at the generated meshes, and at the bundled scenes; 10^6 and 10^7
+// by default. WAVEPATH_INSIDE_RAYS: those from inside closed meshes, 10^6 by default; 10^9 takes an
+// hour or two.
 #include "scene/bvh_builder.h"
 #include "scene/gltf_loader.h"
 #include "scene/normalise.h"
@@ -25,9 +26,8 @@ kernel void closest(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
-    const Cover cover = full_cover();
     out[i] = closest_hit(
-        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), &cover);
+        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
 }
 
 kernel void blocked(
@@ -36,8 +36,7 @@ kernel void blocked(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
-    const Cover cover = full_cover();
-    out[i] = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], &cover);
+    out[i] = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], 0);
 }
 )");
     return instance;
@@ -55,10 +54,9 @@ std::vector<cl_int> any(const Bvh& bvh, const std::vector<TestRay>& rays) {
 
 // The rays of one kind at one mesh, of `kinds`, in batches.
 template <typename Check>
-void in_batches(const char* variable, std::size_t kinds, const Check& check) {
+void in_batches(const char* variable, std::size_t usual, std::size_t kinds, const Check& check) {
     const char* wanted = std::getenv(variable);
-    const double total =
-        wanted != nullptr ? std::atof(wanted) : static_cast<double>(scaled(1'000'000));
+    const double total = wanted != nullptr ? std::atof(wanted) : static_cast<double>(scaled(usual));
     auto left = static_cast<std::size_t>(std::ceil(total / static_cast<double>(kinds)));
     for (unsigned seed = 1; left > 0; ++seed) {
         const std::size_t count = std::min<std::size_t>(left, 1U << 18U);
@@ -91,12 +89,12 @@ std::vector<TestMesh> all_meshes() {
 }
 
 // Exact but for what float cannot decide: RayOracle::agree.
-void expect_hits_of_embree(const TestMesh& mesh, std::size_t meshes) {
+void expect_hits_of_embree(const TestMesh& mesh, std::size_t rays_in_all, std::size_t meshes) {
     const Bvh bvh = build_bvh(mesh.positions);
     const RayOracle oracle(mesh);
     for (const Aim aim : aims)
         in_batches(
-            "WAVEPATH_HIT_RAYS", meshes * aims.size(),
+            "WAVEPATH_HIT_RAYS", rays_in_all, meshes * aims.size(),
             [&](std::size_t count, std::mt19937& random) {
                 const std::vector<TestRay> rays = make_rays(mesh, aim, false, count, random);
                 const std::vector<TestHit> ours = closest(bvh, rays);
@@ -112,7 +110,7 @@ void expect_hits_of_embree(const TestMesh& mesh, std::size_t meshes) {
 
 TEST(Bvh, HitsAreEmbrees) {
     const std::vector<TestMesh> meshes = all_meshes();
-    for (const TestMesh& mesh : meshes) expect_hits_of_embree(mesh, meshes.size());
+    for (const TestMesh& mesh : meshes) expect_hits_of_embree(mesh, 1'000'000, meshes.size());
 }
 
 TEST(Bvh, HitsAreEmbreesInEveryScene) {
@@ -122,7 +120,8 @@ TEST(Bvh, HitsAreEmbreesInEveryScene) {
             paths.push_back(path.string());
     EXPECT_GE(paths.size(), 5U);
     for (const std::string& path : paths)
-        expect_hits_of_embree({path, normalise(load_gltf(path)).positions}, paths.size());
+        expect_hits_of_embree(
+            {path, normalise(load_gltf(path)).positions}, 10'000'000, paths.size());
 }
 
 // Exact: not one ray leaves a closed mesh unseen (ground truth 5.4).
@@ -132,7 +131,7 @@ TEST(Bvh, WatertightFromInside) {
         const Bvh bvh = build_bvh(mesh.positions);
         for (const Aim aim : aims)
             in_batches(
-                "WAVEPATH_INSIDE_RAYS", meshes.size() * aims.size(),
+                "WAVEPATH_INSIDE_RAYS", 1'000'000, meshes.size() * aims.size(),
                 [&](std::size_t count, std::mt19937& random) {
                     const std::vector<TestRay> rays = make_rays(mesh, aim, true, count, random);
                     const std::vector<TestHit> ours = closest(bvh, rays);
@@ -180,7 +179,7 @@ std::vector<TestRay> leaving_rays(const TestMesh& mesh, std::size_t count, std::
 TEST(Bvh, NoRayThatLeavesASliverMeetsIt) {
     const TestMesh mesh = slivers_mesh(200);
     const Bvh bvh = build_bvh(mesh.positions);
-    in_batches("WAVEPATH_HIT_RAYS", 1, [&](std::size_t count, std::mt19937& random) {
+    in_batches("WAVEPATH_HIT_RAYS", 1'000'000, 1, [&](std::size_t count, std::mt19937& random) {
         const std::vector<TestRay> rays = leaving_rays(mesh, count, random);
         const std::vector<TestHit> hits = closest(bvh, rays);
         for (std::size_t i = 0; i < count; ++i)

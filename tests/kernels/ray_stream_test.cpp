@@ -58,9 +58,8 @@ kernel void alone(
     if (i >= count) return;
     global const float* r = rays + 8 * i;
     if (r[6] < 0.0f) return;
-    const Cover cover = full_cover();
     out[i] = closest_hit(
-        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), &cover);
+        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
 }
 )",
         "#define RAYS_PER_ITEM 50\n");

@@ -18,15 +18,17 @@ nlohmann::json reference(const std::string& name) {
     return nlohmann::json::parse(file);
 }
 
+struct Comparison {
+    Termination termination = {};
+    uint32_t size = 256;  // [pixels] of a side
+    double block_bias = 0.25, whole_bias = 0.01;
+};
+
 void expect_same_picture(
-    const Scene& scene,
-    const std::string& name,
-    uint64_t samples,
-    const Termination& termination = {},
-    double bias_of_the_whole = 0.01) {
+    const Scene& scene, const std::string& name, uint64_t samples, const Comparison& how = {}) {
     const nlohmann::json truth = reference(name);
-    RenderSettings settings = square_settings("mis", scene.cameras.at(0), 256, samples);
-    settings.termination = termination;
+    RenderSettings settings = square_settings("mis", scene.cameras.at(0), how.size, samples);
+    settings.termination = how.termination;
     const RenderResult result = render_scene(scene, settings);
     const char* const channels[] = {"R", "G", "B"};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -37,13 +39,13 @@ void expect_same_picture(
             const Estimate theirs = {
                 truth["mean"][block / 8][block % 8][c], truth["se"][block / 8][block % 8][c],
                 whole.degrees};
-            EXPECT_TRUE(agree(blocks[block], theirs, {.bias = 0.25, .tests = 192}));
+            EXPECT_TRUE(agree(blocks[block], theirs, {.bias = how.block_bias, .tests = 192}));
             whole.mean += theirs.mean / 64;
             whole.error = std::hypot(whole.error, theirs.error / 64);
         }
         SCOPED_TRACE(fmt::format("{}, all of {}", name, channels[c]));
         EXPECT_TRUE(
-            agree(image_mean(result, channels[c]), whole, {.bias = bias_of_the_whole, .tests = 3}));
+            agree(image_mean(result, channels[c]), whole, {.bias = how.whole_bias, .tests = 3}));
     }
 }
 
@@ -57,7 +59,15 @@ TEST(Reference, CornellBox) {
 TEST(Reference, BoxLight) {
     expect_same_picture(
         load_gltf(source + "/scenes/box_light/scene.gltf"), "box_light", 256,
-        {TerminationKind::depth, 1, 1}, 0.05);
+        {.termination = {TerminationKind::depth, 1, 1}, .whole_bias = 0.05});
+}
+
+// 1.3e8 samples.
+TEST(Reference, BoxLightAllOrders_long) {
+    WAVEPATH_SKIP_UNLESS_LONG();
+    expect_same_picture(
+        load_gltf(source + "/scenes/box_light/scene.gltf"), "box_light_all_orders", 8000,
+        {.size = 128, .block_bias = 0.05});
 }
 
 TEST(Reference, Terrain) {
