@@ -27,7 +27,7 @@ InterruptGuard::InterruptGuard() {
 }
 
 InterruptGuard::~InterruptGuard() {
-    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGINT, SIG_IGN);
 }
 
 bool InterruptGuard::requested() const {

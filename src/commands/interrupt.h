@@ -6,7 +6,9 @@ namespace wavepath {
 // Thrown when what there is has been written; main answers with exit status 130.
 struct Interrupted {};
 
-// While it lives, SIGINT sets a flag; a second SIGINT ends the process at once.
+// While it lives, SIGINT sets a flag; a second SIGINT ends the process at once. After it, SIGINT
+// does nothing: what remains is to write the pictures, which takes a moment and must not be cut
+// short.
 class InterruptGuard {
   public:
     InterruptGuard();

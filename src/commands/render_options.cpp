@@ -216,6 +216,7 @@ RenderJob prepare_job(const RenderOptions& options) {
     settings.split_depth = options.split_depth;
     settings.sobol = options.sampler == "sobol";
     settings.seed = options.seed;
+    job.scene_of_file = options.scene_of_file;
     settings.pool = options.pool;
     parse_budget(options, settings);
 

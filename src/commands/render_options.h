@@ -48,6 +48,7 @@ void add_render_options(CLI::App& app, RenderOptions& options);
 struct RenderJob {
     Scene scene;
     RenderSettings settings;
+    std::string scene_of_file;  // as it was asked for; empty: the file's default
     double load_seconds = 0;
 };
 

@@ -25,6 +25,8 @@ RenderResult run_job(const Device& device, const RenderJob& job, bool quiet) {
         throw Interrupted();
     }
     for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
+    const std::vector<std::string>& ignored = job.scene.ignored;  // said before the render
+    result.warnings.insert(result.warnings.begin(), ignored.begin(), ignored.end());
     if (result.film.nonfinite.samples > 0)
         spdlog::warn(
             "{} samples were not finite, the first in pixel ({}, {}), sample {}; their pixels hold "

@@ -24,7 +24,8 @@ class DeviceArray {
             throw Error(
                 "{}: {} MiB needed in one buffer, the device allows {} MiB; use less of it (--size "
                 "for the film, --pool for paths, a smaller scene), or another --device",
-                what, bytes >> 20U, device.info.max_allocation >> 20U);
+                what, (bytes + (std::size_t{1} << 20U) - 1) >> 20U,
+                device.info.max_allocation >> 20U);
         buffer_ = cl::Buffer(device.context, CL_MEM_READ_WRITE, bytes);
         prefer_huge_pages(device, buffer_, bytes);
     }

@@ -89,11 +89,15 @@ ordered_json settings_report(const RenderJob& job) {
     ordered_json report = {
         {"width", settings.width},
         {"height", settings.height},
+        {"scene_of_file", job.scene_of_file},
         {"camera", settings.camera.name},
         {"camera_to_world", settings.camera.to_world},
         {"y_fov_deg", settings.camera.orthographic
                           ? ordered_json(nullptr)
                           : ordered_json(settings.camera.y_fov * 180 / std::numbers::pi)},
+        {"orthographic_m", settings.camera.orthographic
+                               ? ordered_json{settings.camera.x_mag, settings.camera.y_mag}
+                               : ordered_json(nullptr)},
         {"environment", environment},
         {"samples", settings.samples},
         {"time_limit_s", settings.seconds},
@@ -106,6 +110,7 @@ ordered_json settings_report(const RenderJob& job) {
         {"splits",
          {settings.splits.stops, settings.splits.directions, settings.splits.reflections}},
         {"split_depth", settings.split_depth},
+        {"pool", settings.pool},
     };
     const auto encloses = [](const Material& m) { return m.boundary != Boundary::opaque; };
     if (std::ranges::any_of(job.scene.materials, encloses)) {

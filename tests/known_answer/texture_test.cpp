@@ -1,34 +1,11 @@
-// Textures, holes and normal maps with closed forms.
-#include "scene/tangents.h"
-#include "support/images.h"
-#include "support/rendering.h"
+// Textures of every use with closed forms.
+#include "support/textured_scenes.h"
 
 #include <cmath>
 #include <cstring>
-#include <random>
 
 namespace wavepath {
 namespace {
-
-constexpr double full_view = 2;  // of the plate below
-
-// A plate of 2 x 2 in the plane z = `z` whose picture stands upright seen from +z.
-Primitive& add_plate(Scene& scene, const Material& material, double z = 0) {
-    Primitive& plate = add_quad(scene, material, {-1, -1, z}, {2, 0, 0}, {0, 2, 0});
-    plate.uvs[0] = {0, 1, 1, 1, 1, 0, 0, 0};
-    return plate;
-}
-
-Camera above(double side) {
-    return orthographic({0, 0, 3}, {0, 0, 0}, side);
-}
-
-RenderSettings depth_limited(
-    const Camera& camera, uint32_t size, uint64_t samples, uint32_t depth) {
-    RenderSettings settings = square_settings("mis", camera, size, samples);
-    settings.termination = {TerminationKind::depth, depth, 1};
-    return settings;
-}
 
 // u runs from texel centre to texel centre: the image 0, 1 interpolates linearly between them, and
 // the mean over a pixel is the value at its middle.
@@ -103,122 +80,6 @@ TEST(Textures, OfLobesAreTheirFactors) {
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(b[i], a[i], 3e-4 * a[i]) << i;
 }
 
-// A black plate with holes before a sky of radiance 1 shows the share of its holes; `opaque` texels
-// of 16.
-Scene screen(AlphaMode mode, const std::vector<uint8_t>& alphas, uint32_t width) {
-    Scene scene = scene_named("screen");
-    Material material = lambert(grey(0));
-    material.alpha_mode = mode;
-    material.alpha_cutoff = 0.5F;
-    add_plate(scene, material);
-    std::vector<uint8_t> rgba;
-    for (const uint8_t a : alphas) rgba.insert(rgba.end(), {255, 255, 255, a});
-    add_texture(
-        scene, scene.materials[0], TEXTURE_BASE_COLOR,
-        image_of(width, static_cast<uint32_t>(alphas.size()) / width, rgba))
-        .nearest = true;
-    scene.environment = constant_environment(1);
-    return scene;
-}
-
-std::vector<uint8_t> random_mask(std::size_t texels, std::size_t& holes) {
-    std::mt19937 random(5);
-    std::vector<uint8_t> alphas(texels);
-    holes = 0;
-    for (uint8_t& a : alphas) {
-        a = random() % 3 == 0 ? 127 : 128;  // just below the cutoff and just above
-        holes += a < 128 ? 1 : 0;
-    }
-    return alphas;
-}
-
-TEST(Masks, LetThroughTheShareOfTheirHoles) {
-    std::size_t holes = 0;
-    const std::vector<uint8_t> alphas = random_mask(256, holes);
-    // a pixel a texel: each is 0 or 1 exactly
-    const RenderResult result = render_scene(
-        screen(AlphaMode::mask, alphas, 16), depth_limited(above(full_view), 16, 16, 0));
-    const std::vector<float>& red = result.film.image.channels.at("R");
-    for (std::size_t i = 0; i < 256; ++i) EXPECT_EQ(red[i], alphas[i] < 128 ? 1 : 0) << i;
-    EXPECT_NEAR(shared_mean(result).mean, static_cast<double>(holes) / 256, 1e-6);
-}
-
-// Through a mask close above a floor a wide sky arrives in the share of the holes, by connections
-// and by directions alike. The mask repeats 64 times, so that the floor is even.
-TEST(Masks, ShadowAndReflectAlike) {
-    std::size_t holes = 0;
-    const std::vector<uint8_t> alphas = random_mask(256, holes);
-    for (const char* method : {"bsdf", "direct", "mis"}) {
-        SCOPED_TRACE(method);
-        Scene scene = screen(AlphaMode::mask, alphas, 16);
-        scene.environment.reset();
-        scene.primitives[0].positions = {-9, -9, 0.5F, 9, -9, 0.5F, 9, 9, 0.5F, -9, 9, 0.5F};
-        for (float& uv : scene.primitives[0].uvs[0]) uv *= 600;
-        add_square(scene, lambert(grey(1)), {0, 0, 0}, {0, 0, 1}, 0.1);
-        add_square(scene, lambert(grey(0), grey(1)), {0, 0, 1}, {0, 0, -1}, 1);
-        RenderSettings settings =
-            square_settings(method, close_up({0, 0, 0}, {0, 0, 1}, 0.1, 2e-2), 16, 256);
-        settings.termination = {TerminationKind::depth, 1, 1};
-        const RenderResult result = render_for({.bias = 0.01}, scene, settings);
-        constexpr double form_factor = .2394564704607735;
-        EXPECT_TRUE(has_mean(
-            shared_mean(result), form_factor * static_cast<double>(holes) / 256,
-            {.bias = 0.01, .truth_error = 2e-3}));
-    }
-}
-
-// n layers transmit (1 - alpha)^n, without a bounce.
-TEST(Blends, TransmitOneMinusAlphaALayer) {
-    for (const int layers : {1, 3, 10}) {
-        Scene scene = scene_named("layers");
-        Material material = lambert(grey(0));
-        material.alpha_mode = AlphaMode::blend;
-        material.alpha = 0.1F;
-        for (int i = 0; i < layers; ++i) add_plate(scene, material, 0.1 * i);
-        scene.environment = constant_environment(1);
-        const RenderResult result = render_for({}, scene, depth_limited(above(1), 64, 64, 0));
-        SCOPED_TRACE(layers);
-        EXPECT_TRUE(has_mean(image_mean(result), std::pow(0.9, layers)));
-    }
-}
-
-// alpha is factor x texture x vertex colour.
-TEST(Blends, MultiplyAlphas) {
-    Scene scene = screen(AlphaMode::blend, std::vector<uint8_t>(1, 204), 1);  // .8
-    scene.materials[0].alpha = 0.5F;
-    scene.primitives[0].alphas = {0.25F, 0.25F, 0.75F, 0.75F};  // .5 in the middle row
-    const RenderResult result =
-        render_for({}, scene, depth_limited(orthographic({0, 0, 3}, {0, 0, 0}, 1e-3), 32, 64, 0));
-    EXPECT_TRUE(has_mean(image_mean(result), 1 - 0.8 * 0.5 * 0.5));
-}
-
-// A light behind a blend, and one that is itself blended: L alpha arrives, or L (1 - alpha).
-TEST(Blends, DimLightsAndWhatTheyCover) {
-    for (const char* method : {"bsdf", "direct", "mis"})
-        for (const bool light_itself : {false, true}) {
-            SCOPED_TRACE(fmt::format("{}, the light itself: {}", method, light_itself));
-            Scene scene = scene_named("dimmed");
-            Material light = lambert(grey(0), grey(1));
-            if (light_itself) {
-                light.alpha_mode = AlphaMode::blend;
-                light.alpha = 0.75F;
-            } else {
-                Material veil = lambert(grey(0));
-                veil.alpha_mode = AlphaMode::blend;
-                veil.alpha = 0.25F;
-                add_plate(scene, veil, 0.5);
-            }
-            add_square(scene, lambert(grey(1)), {0, 0, 0}, {0, 0, 1}, 0.1);
-            add_square(scene, light, {0, 0, 1}, {0, 0, -1}, 1);
-            RenderSettings settings =
-                square_settings(method, close_up({0, 0, 0}, {0, 0, 1}, 0.1, 2e-3), 32, 64);
-            settings.termination = {TerminationKind::depth, 1, 1};
-            const RenderResult result = render_for({}, scene, settings);
-            EXPECT_TRUE(
-                has_mean(shared_mean(result), 0.75 * .2394564704607735, {.truth_error = 1e-5}));
-        }
-}
-
 // Left half 1, right half 0: F of the left half by symmetry is half of the whole.
 TEST(EmissionTextures, LightByWhatTheyShow) {
     for (const char* method : {"bsdf", "direct", "mis"})
@@ -254,90 +115,6 @@ TEST(Unlit, ShowsItsColour) {
         for (const float x : result.film.image.channels.at("R")) EXPECT_EQ(x, 0.25F);
         for (const float x : result.film.image.channels.at("G")) EXPECT_EQ(x, 0.5F);
     }
-}
-
-// A smooth sphere with a normal map whose texels are `codes` over its longitudes and latitudes.
-Scene bumpy_sphere(const Material& material, TextureImage image) {
-    Scene scene = scene_named("bumpy sphere");
-    Primitive& sphere = add_icosphere(scene, material, {0, 0, 0}, 1, 3);
-    sphere.normals = sphere.positions;
-    for (std::size_t i = 0; i < sphere.positions.size(); i += 3) {
-        const float* p = &sphere.positions[i];
-        sphere.uvs[0].push_back(2 * p[0] + p[2]);
-        sphere.uvs[0].push_back(2 * p[1] - p[2]);
-    }
-    add_texture(scene, scene.materials[0], TEXTURE_NORMAL, std::move(image));
-    sphere.tangents = derive_tangents(sphere, sphere.uvs[0]);
-    scene.environment = constant_environment(1);
-    return scene;
-}
-
-TextureImage steep_bumps() {
-    std::mt19937 random(11);
-    std::vector<uint8_t> rgba;
-    for (int i = 0; i < 64; ++i)
-        rgba.insert(
-            rgba.end(), {static_cast<uint8_t>(random() % 256), static_cast<uint8_t>(random() % 256),
-                         static_cast<uint8_t>(140 + random() % 116), 255});
-    return image_of(8, 8, rgba);
-}
-
-// No light is lost at a tilted lobe and none gained: white Lambert under a uniform sky shows 1 at
-// every pixel, whatever its normals say.
-TEST(NormalMaps, KeepTheFurnaceWhite) {
-    for (const char* method : {"path", "bsdf", "direct", "mis"}) {
-        SCOPED_TRACE(method);
-        const bool by_points = std::string(method) == "direct";
-        RenderSettings settings = square_settings(
-            method, orthographic({0, 0, 3}, {0, 0, 0}, 1.2), 64, by_points ? 256 : 4);
-        settings.termination = {TerminationKind::depth, 1, 1};
-        const RenderResult result =
-            render_scene(bumpy_sphere(lambert(grey(1)), steep_bumps()), settings);
-        EXPECT_TRUE(has_mean(shared_mean(result), 1));
-    }
-}
-
-// A code of neither 0 nor 255 is the middle exactly in 16 bits only to 1 / 65535: the normal stays
-// the vertices' to that.
-TEST(NormalMaps, OfTheMiddleChangeNothing) {
-    const auto normals = [](TextureImage image, float scale) {
-        Scene scene = bumpy_sphere(lambert(grey(0.5F)), std::move(image));
-        scene.materials[0].normal_scale = scale;
-        return render_scene(
-            scene, depth_limited(orthographic({0, 0, 3}, {0, 0, 0}, 1.2), 32, 4, 0));
-    };
-    const RenderResult middle = normals(texel_image(0.5, 0.5, 1), 1);
-    const RenderResult flat = normals(steep_bumps(), 0);
-    Scene scene = bumpy_sphere(lambert(grey(0.5F)), texel_image(0.5, 0.5, 1));
-    scene.materials[0].textures[TEXTURE_NORMAL] = {};
-    scene.primitives[0].tangents.clear();
-    const RenderResult plain =
-        render_scene(scene, depth_limited(orthographic({0, 0, 3}, {0, 0, 0}, 1.2), 32, 4, 0));
-    for (const char* channel : {"normal.X", "normal.Y", "normal.Z"})
-        for (std::size_t i = 0; i < 32 * 32; ++i) {
-            const float expected = plain.film.image.channels.at(channel)[i];
-            EXPECT_NEAR(middle.film.image.channels.at(channel)[i], expected, 5e-5);
-            EXPECT_NEAR(flat.film.image.channels.at(channel)[i], expected, 1e-6);
-        }
-}
-
-// (1, 0.5, 0.5) tilts all the way to the tangent: a plate whose u runs along x sees +x; v runs
-// down.
-TEST(NormalMaps, TiltAlongUAndUp) {
-    const auto tilted = [](double r, double g, double b) {
-        Scene scene = scene_named("tilted");
-        Primitive& plate = add_plate(scene, lambert(grey(1)));
-        add_texture(scene, scene.materials[0], TEXTURE_NORMAL, texel_image(r, g, b));
-        plate.tangents = derive_tangents(plate, plate.uvs[0]);
-        scene.environment = constant_environment(1);
-        return render_scene(scene, depth_limited(above(1), 2, 1, 0)).film.image.channels;
-    };
-    auto right = tilted(0.8, 0.5, 0.9);
-    EXPECT_NEAR(right.at("normal.X")[0], 0.6, 1e-4);
-    EXPECT_NEAR(right.at("normal.Y")[0], 0, 1e-4);
-    EXPECT_NEAR(right.at("normal.Z")[0], 0.8, 1e-4);
-    auto up = tilted(0.5, 0.8, 0.9);
-    EXPECT_NEAR(up.at("normal.Y")[0], 0.6, 1e-4);
 }
 
 // The furnace of furnace_test.cpp with walls of textured albedo, behind inner screens of white

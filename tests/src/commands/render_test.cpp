@@ -136,8 +136,7 @@ TEST_F(RenderCommand, RefusesOutputsThatAreOneFileHoweverTheyAreLinked) {
         expect_refused(
             cornell_box + " -o " + path("a.exr") + " --json " + path(name), "are one file");
     expect_refused(cornell_box + " --json " + path("loop.exr"), "choose another name");
-    expect_refused(
-        cornell_box + " --json " + path(std::string(300, 'a')), "choose another name");
+    expect_refused(cornell_box + " --json " + path(std::string(300, 'a')), "choose another name");
     expect_refused(cornell_box + " --json /dev/null", "is not the name of a regular file");
     EXPECT_EQ(std::filesystem::file_size(path("a.exr")), 6U);
 }
@@ -158,8 +157,8 @@ TEST_F(RenderCommand, CtrlCWritesWhatThereIs) {
                                " --size 16x16 --time 1000 -o " + path("a.exr") + " > " +
                                path("words") + " 2>&1";
     for (int seconds = 1; seconds < 300 && !std::filesystem::exists(path("a.exr")); seconds *= 2) {
-        const int status =
-            std::system(fmt::format("timeout -s INT --preserve-status {}{}", seconds, render).c_str());
+        const int status = std::system(
+            fmt::format("timeout -s INT --preserve-status {}{}", seconds, render).c_str());
         EXPECT_EQ(WEXITSTATUS(status), 130) << folder.read("words");
     }
     const std::string words = folder.read("words");
@@ -199,10 +198,10 @@ TEST_F(RenderCommand, RefusesMoreMemoryThanTheDeviceHas) {
         EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
         return outcome.words;
     };
-    EXPECT_THAT(refusal(" --size 2000x2000"), HasSubstr("film: 518 MiB needed"));
+    EXPECT_THAT(refusal(" --size 2000x2000"), HasSubstr("film: 519 MiB needed"));
     EXPECT_THAT(
         refusal(" --size 1300x1300 --pool 1600000"),
-        HasSubstr("units of work: 292 MiB needed in one buffer, the device allows 256 MiB"));
+        HasSubstr("units of work: 293 MiB needed in one buffer, the device allows 256 MiB"));
 }
 
 TEST_F(RenderCommand, RefusesToReplaceWhatTheSceneIsMadeOf) {

@@ -15,6 +15,8 @@ TEST(SettingsReport, NamesAllThatMakesThePicture) {
     options.splits = "1,1,2";
     options.split_depth = 3;
     options.termination = "roulette:0.5";
+    options.scene_of_file = "0";
+    options.pool = 300;
     const auto report = settings_report(prepare_job(options));
     EXPECT_EQ(report["camera"], "look-at");
     EXPECT_EQ(report["camera_to_world"][12], 1);
@@ -27,6 +29,19 @@ TEST(SettingsReport, NamesAllThatMakesThePicture) {
     EXPECT_EQ(report["splits"], nlohmann::ordered_json({1, 1, 2}));
     EXPECT_EQ(report["split_depth"], 3);
     EXPECT_EQ(report["termination"], "roulette:0.5");
+    EXPECT_EQ(report["scene_of_file"], "0");
+    EXPECT_EQ(report["pool"], 300);
+    EXPECT_TRUE(report["orthographic_m"].is_null());
+}
+
+TEST(SettingsReport, NamesTheViewOfAnOrthographicCamera) {
+    RenderJob job;
+    job.settings.camera.orthographic = true;
+    job.settings.camera.x_mag = 2;
+    job.settings.camera.y_mag = 3;
+    const auto report = settings_report(job);
+    EXPECT_TRUE(report["y_fov_deg"].is_null());
+    EXPECT_EQ(report["orthographic_m"], nlohmann::ordered_json({2.0, 3.0}));
 }
 
 TEST(SettingsReport, BiasNamesEveryReason) {
