@@ -4,6 +4,7 @@
 #include "scene/gltf_draco.h"
 #include "scene/gltf_meshopt.h"
 #include "scene/gltf_placeholders.h"
+#include "scene/gltf_unresolved.h"
 
 #include <algorithm>
 #include <array>
@@ -186,9 +187,13 @@ GltfFile read_gltf_file(const fs::path& path) {
     // Version and extensions are known even after a failure, and often its reason: they go first.
     check_version(file);
     check_required_extensions(file);
-    if (!error.empty())
+    if (!error.empty()) {
+        const bool names_none = error.find("accessor") != error.npos;
+        const std::string unresolved = names_none ? unresolved_accessor(json_text(bytes)) : "";
         throw Error(
-            "{}: not valid glTF: {}; repair the file or export again", file.name, one_line(error));
+            "{}: not valid glTF: {}; repair the file or export again", file.name,
+            one_line(unresolved.empty() ? error : unresolved));
+    }
     decode_meshopt(file);
     decode_draco(file);
     return file;
