@@ -19,8 +19,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
             "{}: cannot be written: {}; choose another name", path.string(), failure.message());
     }
     if (!path.has_filename() || (fs::exists(status) && !fs::is_regular_file(status))) {
-        throw Error(
-            "\"{}\": is not the name of a regular file; choose another", path.string());
+        throw Error("\"{}\": is not the name of a regular file; choose another", path.string());
     }
     if (fs::exists(status)) path_ = fs::canonical(path);  // replace the file, not a link to it
 

@@ -86,7 +86,8 @@ TEST(AtomicFile, RemovesTheTemporaryWhereRenamingFails) {
     EXPECT_THAT(
         error_of([&] { file.commit("x"); }), HasSubstr("a: cannot be written: Is a directory"));
     EXPECT_THAT(
-        error_of([&] { AtomicFile again(folder / "a"); }), HasSubstr("is not the name of a regular file"));
+        error_of([&] { AtomicFile again(folder / "a"); }),
+        HasSubstr("is not the name of a regular file"));
 }
 
 TEST(AtomicFile, RefusesWhatIsNoFile) {
