@@ -82,11 +82,14 @@ void add_output_options(CLI::App& app, Outputs& outputs) {
     app.add_flag("--quiet", outputs.quiet, "Say nothing on the way but warnings and errors");
 }
 
-void check_outputs(const Outputs& outputs, std::vector<std::filesystem::path> inputs) {
+void check_outputs(const Outputs& outputs) {
     if (!(std::abs(outputs.exposure) <= 100))
         throw Error("--exposure {}: use stops between -100 and 100", outputs.exposure);
+    for (const auto& output : files_of(outputs)) check_writable(output);
+}
+
+void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inputs) {
     for (const auto& output : files_of(outputs)) {
-        check_writable(output);
         for (const auto& other : inputs) {
             if (!other.empty() && one_file(output, other))
                 throw Error("{} and {} are one file; name two", output.string(), other.string());

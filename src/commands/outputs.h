@@ -15,9 +15,11 @@ struct Outputs {
 // Options for `outputs`, whose values beforehand are the defaults.
 void add_output_options(CLI::App& app, Outputs& outputs);
 
-// Throws Error for an output that can't be written, that is one of the inputs,
-// or that is named twice.
-void check_outputs(const Outputs& outputs, std::vector<std::filesystem::path> inputs);
+// Throws Error for an output that can't be written.
+void check_outputs(const Outputs& outputs);
+
+// Throws Error for an output that is one of the inputs, or that is named twice.
+void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inputs);
 
 // Throws Interrupted at the end if Ctrl-C stopped the render.
 void write_outputs(

@@ -58,10 +58,11 @@ void print_rays(const RenderResult& result) {
 
 void run(const RenderOptions& options, const Outputs& outputs) {
     if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
-    check_outputs(outputs, {options.scene, options.environment});
+    check_outputs(outputs);
+    check_apart(outputs, {options.scene, options.environment});
     const Device device = open_device(options.device);
     const RenderJob job = prepare_job(options);
-    check_outputs(outputs, job.scene.files);
+    check_apart(outputs, job.scene.files);
     RenderResult result = run_job(device, job, outputs.quiet);
     const double samples =
         static_cast<double>(result.samples) * job.settings.width * job.settings.height;

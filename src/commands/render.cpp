@@ -14,10 +14,11 @@ namespace {
 
 void run(const RenderOptions& options, const Outputs& outputs) {
     if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
-    check_outputs(outputs, {options.scene, options.environment});
+    check_outputs(outputs);
+    check_apart(outputs, {options.scene, options.environment});
     const Device device = open_device(options.device);
     const RenderJob job = prepare_job(options);
-    check_outputs(outputs, job.scene.files);
+    check_apart(outputs, job.scene.files);
     RenderResult result = run_job(device, job, outputs.quiet);
     write_outputs(device, job, result, outputs);
 }

@@ -65,19 +65,21 @@ Camera choose_camera(const Scene& scene, const std::string& selector) {
         camera.name = "overview";
         return camera;
     }
+    const auto numbered = [&](std::size_t index) {
+        Camera camera = scene.cameras[index];
+        if (camera.name.empty()) camera.name = std::to_string(index);  // what --camera calls it
+        return camera;
+    };
+    if (selector.empty()) return numbered(0);
     std::vector<std::string> names;
     for (const Camera& camera : scene.cameras) {
-        if (!selector.empty() && camera.name == selector) return camera;
+        if (camera.name == selector) return camera;
         names.push_back(camera.name);
     }
     const bool is_number =
         selector.find_first_not_of("0123456789") == std::string::npos && selector.size() < 9;
-    const std::size_t index = is_number && !selector.empty() ? std::stoul(selector) : 0;
-    if (is_number && index < scene.cameras.size()) {
-        Camera camera = scene.cameras[index];
-        if (camera.name.empty()) camera.name = std::to_string(index);  // what --camera calls it
-        return camera;
-    }
+    if (is_number && std::stoul(selector) < scene.cameras.size())
+        return numbered(std::stoul(selector));
     throw Error(
         "--camera {}: {} has {} camera(s){}{}; name one of them by index or name, or use --look-at",
         selector, scene.name, scene.cameras.size(), names.empty() ? "" : ": ",

@@ -188,8 +188,8 @@ GltfFile read_gltf_file(const fs::path& path) {
     check_version(file);
     check_required_extensions(file);
     if (!error.empty()) {
-        const bool names_none = error.find("accessor") != error.npos;
-        const std::string unresolved = names_none ? unresolved_accessor(json_text(bytes)) : "";
+        const bool of_accessor = error.find("accessor") != error.npos;
+        const std::string unresolved = of_accessor ? unresolved_accessor(json_text(bytes)) : "";
         throw Error(
             "{}: not valid glTF: {}; repair the file or export again", file.name,
             one_line(unresolved.empty() ? error : unresolved));

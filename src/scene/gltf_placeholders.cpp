@@ -1,6 +1,6 @@
 #include "scene/gltf_placeholders.h"
 
-#include <nlohmann/json.hpp>
+#include "scene/json_member.h"
 
 namespace wavepath {
 namespace {
@@ -10,19 +10,13 @@ using Json = nlohmann::json;
 constexpr const char* meshopt = "EXT_meshopt_compression";
 constexpr const char* draco = "KHR_draco_mesh_compression";
 
-// Member `key` of `object`, or null.
-const Json& member(const Json& object, const char* key) {
-    static const Json null;
-    const auto found = object.is_object() ? object.find(key) : object.end();
-    return found == object.end() ? null : *found;
-}
-
 void fill_fallback_buffers(Json& root, bool binary) {
-    if (!member(root, "buffers").is_array()) return;
+    if (!json_member(root, "buffers").is_array()) return;
     bool is_chunk = binary;
     for (Json& buffer : root["buffers"]) {
         const bool is_fallback =
-            member(member(member(buffer, "extensions"), meshopt), "fallback") == true;
+            json_member(json_member(json_member(buffer, "extensions"), meshopt), "fallback") ==
+            true;
         if (buffer.is_object() && (is_fallback || !(is_chunk || buffer.contains("uri")))) {
             buffer["uri"] = "data:application/octet-stream;base64,AA==";
             buffer["byteLength"] = 1;
@@ -32,11 +26,11 @@ void fill_fallback_buffers(Json& root, bool binary) {
 }
 
 void drop_draco_indices(Json& root) {
-    if (!member(root, "meshes").is_array()) return;
+    if (!json_member(root, "meshes").is_array()) return;
     for (Json& mesh : root["meshes"]) {
-        if (!member(mesh, "primitives").is_array()) continue;
+        if (!json_member(mesh, "primitives").is_array()) continue;
         for (Json& primitive : mesh["primitives"])
-            if (member(member(primitive, "extensions"), draco).is_object())
+            if (json_member(json_member(primitive, "extensions"), draco).is_object())
                 primitive.erase("indices");
     }
 }

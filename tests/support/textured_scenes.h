@@ -29,8 +29,7 @@ inline RenderSettings depth_limited(
     return settings;
 }
 
-// A black plate with holes before a sky of radiance 1 shows the share of its holes; `opaque` texels
-// of 16.
+// A black plate with holes before a sky of radiance 1 shows the share of its holes.
 inline Scene screen(AlphaMode mode, const std::vector<uint8_t>& alphas, uint32_t width) {
     Scene scene = scene_named("screen");
     Material material = lambert(grey(0));

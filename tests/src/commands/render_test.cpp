@@ -217,7 +217,7 @@ TEST_F(RenderCommand, RefusesToReplaceWhatTheSceneIsMadeOf) {
     const Outcome outcome =
         run("render " + path("scene.gltf") + " --look-at 0,0,1,0,0,0 -o " + path("body.png"));
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.words, HasSubstr("are one file"));
+    EXPECT_THAT(outcome.words, HasSubstr("body.png are one file"));
     EXPECT_EQ(std::filesystem::file_size(path("body.png")), 9U);
 }
 
