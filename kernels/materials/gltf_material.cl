@@ -105,6 +105,12 @@ INLINE float gltf_pdf_w(const Surface s, const Vec3 wo, const Vec3 wi, const int
     return wi.z > 0.0f ? pdf_w : 0.0f;
 }
 
+// Of the samples of a surface, those that follow neither a specular lobe nor go through.
+INLINE float gltf_diffuse_share(const Surface s, const Vec3 wo) {
+    const LobeChances pmf = gltf_lobe_pmf(s, wo);
+    return max(0.0f, 1.0f - pmf.specular - pmf.through);
+}
+
 typedef struct {
     Vec3 wi;
     Vec3 weight;  // f cos / pdf_w; 0: absorbed

@@ -85,6 +85,9 @@
 #ifndef WEIGH_BOTH
 #define WEIGH_BOTH 1  // light and bsdf samples are joined by multiple importance sampling
 #endif
+#ifndef HAS_GUIDE
+#define HAS_GUIDE 1  // some directions are aimed at the surroundings of the lamps
+#endif
 #ifndef SAMPLER_SOBOL
 #define SAMPLER_SOBOL 1  // 0: independent points
 #endif

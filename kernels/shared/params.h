@@ -40,8 +40,11 @@ typedef struct {
     shared_uint stops;            // N stops on a segment that branches
     shared_uint stop_directions;  // M directions from a stop
     shared_uint padding;
+    // the sphere that directions are aimed at [normalised] (lights/guide.cl)
+    shared_float guide_x, guide_y, guide_z;
+    shared_float guide_radius2;
 } RenderParams;
-SHARED_SIZE(RenderParams, 160);
+SHARED_SIZE(RenderParams, 176);
 
 // One row of the sample plan: which samples of every pixel a pass takes, counted from the pixel's
 // first.

@@ -24,9 +24,10 @@ enum HitPlane {
     HIT_V,          // of corner 2
     HIT_PLANES
 };
-#define HIT_MISS (-1)   // it left the scene
-#define HIT_ENDED (-2)  // the path is over: absorbed, or cut
-#define HIT_IDLE (-3)   // the slot has no work left
+#define HIT_WORTH HIT_U  // with HAS_GUIDE, once the hit is shaded: guide_worth of the new direction
+#define HIT_MISS (-1)    // it left the scene
+#define HIT_ENDED (-2)   // the path is over: absorbed, or cut
+#define HIT_IDLE (-3)    // the slot has no work left
 // with HAS_MEDIA:
 #define HIT_MEDIUM (-4)  // it stopped in a medium before the surface; HIT_T and SURFACE_X say where
 #define HIT_BOUNDARY (-5)    // it passes an index-matched boundary and goes on as the same ray

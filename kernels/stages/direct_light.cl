@@ -12,6 +12,7 @@
 #include "geometry/surface_texture.cl"
 #include "lights/area_light.cl"
 #include "lights/environment.cl"
+#include "lights/guide.cl"
 #include "lights/punctual.cl"
 #include "materials/dielectric.cl"
 #include "media/medium_stack.cl"
@@ -125,11 +126,17 @@ kernel void direct_light(
     float pdf_w = scattered.pdf_w;
     // of the surface, that the connection leaves on
     float side = HAS_TRANSMISSION && dot3(ng, s.wi) < 0.0f ? -1.0f : 1.0f;
+    if (HAS_GUIDE) {
+        const Guide guide = guide_over(guide_at(&params, p), ng, gltf_diffuse_share(surface, wo));
+        pdf_w = guided_pdf_w(guide, s.wi, pdf_w);
+    }
     if (HAS_MEDIA && MEDIA_SCATTER) {
         const float g = media[(int)max(innermost_medium(stack), 1u) - 1].anisotropy;
         const float phase = phase_eval(g, direction, s.wi);
         f = select3(in_medium, vec3(phase, phase, phase), f);
-        pdf_w = in_medium ? phase_pdf_w(phase) : pdf_w;
+        float phase_pdf = phase_pdf_w(phase);
+        if (HAS_GUIDE) phase_pdf = guided_pdf_w(guide_at(&params, p), s.wi, phase_pdf);
+        pdf_w = in_medium ? phase_pdf : pdf_w;
     }
     if (ROUGH_DIELECTRICS) {
         const DielectricValue v = dielectric_eval(wo, wi, alpha, ior_i, ior_t);

@@ -75,5 +75,6 @@ kernel void refract_boundary(
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = s.pdf_w;
     PLANE(path_media, MEDIUM_STACK)[slot] = as_float(s.reflects ? stack : crossed);
     PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
+    if (HAS_GUIDE) PLANE(hits, HIT_WORTH)[slot] = 1.0f;
     start_at_origin(path_media, stride, slot);
 }

@@ -40,9 +40,9 @@ kernel void roulette_compact(
     float survival = 1.0f;
     // a child carries a part of its parent, which says nothing about its worth
     const float shares = HAS_SPLITS ? as_float(PLANE(ids, ID_SHARES)[slot]) : 1.0f;
-    survival = params.roulette == 1
-                   ? min(1.0f, max_component3(throughput) * shares * (1.0f / ROULETTE_BELOW))
-                   : survival;
+    const float worth = HAS_GUIDE ? PLANE(hits, HIT_WORTH)[slot] : 1.0f;
+    const float carried = max_component3(throughput) * shares * worth;
+    survival = params.roulette == 1 ? min(1.0f, carried * (1.0f / ROULETTE_BELOW)) : survival;
     survival = params.roulette == 2 ? params.survival : survival;
     // once a scattering, not once a boundary
     if (HAS_MEDIA) survival = primitive == HIT_BOUNDARY ? 1.0f : survival;

@@ -8,6 +8,7 @@
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "lights/guide.cl"
 #include "media/medium_stack.cl"
 #include "sampling/branch.cl"
 #include "sampling/dimensions.cl"
@@ -41,8 +42,7 @@ kernel void sample_indirect(
     const Child child = next_child(
         branches, stride, slot, params.split_depth, params.splits, position, rays, hits,
         throughputs, path_media, ids);
-    const Sample2 u =
-        unit_pair(scattering_pair(seed, index, child.branch, scattering, PAIR_DIRECTION));
+    Sample2 u = unit_pair(scattering_pair(seed, index, child.branch, scattering, PAIR_DIRECTION));
     float choice = 0.0f;
     if (HAS_SPECULAR)
         choice = unit_float(scattering_pair(seed, index, child.branch, scattering, PAIR_CHOICE).v);
@@ -50,7 +50,13 @@ kernel void sample_indirect(
     const Frame frame = frame_around(n);
     const Surface surface = load_surface(materials, surfaces, stride, slot);
     const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
-    const BsdfSample s = gltf_sample(surface, wo, u, choice);
+    Guide guide;
+    int guided = 0;
+    if (HAS_GUIDE) {
+        guide = guide_over(guide_at(&params, position), ng, gltf_diffuse_share(surface, wo));
+        guided = choose_guided(guide, &u);
+    }
+    BsdfSample s = gltf_sample(surface, wo, u, choice);
     const float side = HAS_TRANSMISSION && s.through ? -1.0f : 1.0f;
     Vec3 wi = to_world(frame, s.wi);
     float pdf_w = s.pdf_w;
@@ -58,6 +64,18 @@ kernel void sample_indirect(
         wi = select3(side * dot3(ng, wi) < 0.0f, mirror3(wi, ng), wi);
         const float both = scatter_towards(surface, frame, ng, wo, wi).pdf_w;
         pdf_w = pdf_w == PDF_CERTAIN ? pdf_w : both;
+    }
+    if (HAS_GUIDE) {
+        wi = select3(guided, guide_sample(guide, u), wi);
+        s.wi = select3(guided, to_local(frame, wi), s.wi);
+        const Scattered scattered = scatter_towards(surface, frame, ng, wo, wi);
+        const int delta = !guided & (s.pdf_w == PDF_CERTAIN);
+        const float mixture = guided_pdf_w(guide, wi, scattered.pdf_w);
+        s.weight = select3(
+            delta, scale3(s.weight, 1.0f / (1.0f - guide.share)),
+            scale3(scattered.value, mixture > 0.0f ? 1.0f / mixture : 0.0f));
+        pdf_w = delta ? PDF_CERTAIN : mixture;
+        PLANE(hits, HIT_WORTH)[slot] = delta ? 1.0f : guide_worth(mixture, scattered.pdf_w);
     }
     // a direction that is no number makes the throughput none, which accumulate finds
     const float spoilt = 0.0f * (wi.x + wi.y + wi.z);

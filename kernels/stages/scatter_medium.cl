@@ -7,6 +7,7 @@
 //
 // One work-item a slot.
 
+#include "lights/guide.cl"
 #include "media/medium_stack.cl"
 #include "media/phase.cl"
 #include "sampling/branch.cl"
@@ -35,11 +36,26 @@ kernel void scatter_medium(
     const Child child = next_child(
         branches, stride, slot, params.split_depth, params.stop_directions, position, rays, hits,
         throughputs, path_media, ids);
-    const Sample2 u = unit_pair(scattering_pair(
+    Sample2 u = unit_pair(scattering_pair(
         PLANE(ids, ID_SEED)[slot], PLANE(ids, ID_INDEX)[slot], child.branch, scattering,
         PAIR_DIRECTION));
-    const PhaseSample s = phase_sample(
-        media[(int)innermost - 1].anisotropy, load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), u);
+    const float anisotropy = media[(int)innermost - 1].anisotropy;
+    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+    Guide guide;
+    int guided = 0;
+    if (HAS_GUIDE) {
+        guide = guide_at(&params, position);
+        guided = choose_guided(guide, &u);
+    }
+    PhaseSample s = phase_sample(anisotropy, direction, u);
+    if (HAS_GUIDE) {
+        s.wi = select3(guided, guide_sample(guide, u), s.wi);
+        const float phase = phase_eval(anisotropy, direction, s.wi);
+        const float mixture = guided_pdf_w(guide, s.wi, phase_pdf_w(phase));
+        PLANE(hits, HIT_WORTH)[slot] = guide_worth(mixture, phase_pdf_w(phase));
+        s.weight = phase / mixture;
+        s.pdf_w = mixture;
+    }
     const Vec3 throughput = scale3(child.carried, s.weight);
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN

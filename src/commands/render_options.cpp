@@ -168,6 +168,11 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
            "--light-choice", o.light_choice, "How lights are chosen; default the method's own")
         ->check(CLI::IsMember({"area", "power"}))
         ->type_name("area|power");
+    app.add_option(
+           "--guide", o.guide,
+           "Whether mis aims some directions at what lies close to lamps; default on")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->type_name("on|off");
     app.add_option("--sampler", o.sampler, "Kind of points; default sobol")
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent");
@@ -209,6 +214,7 @@ RenderJob prepare_job(const RenderOptions& options) {
     if (!options.light_choice.empty())
         settings.method.light_choice =
             options.light_choice == "area" ? LightChoice::area : LightChoice::power;
+    settings.method.guide = settings.method.guide && options.guide == "on";
     settings.method.distances = distances_named(options.distance);
     settings.method.phase_directions = options.direction == "phase";
     settings.termination = parse_termination(options.termination);

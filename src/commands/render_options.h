@@ -29,6 +29,7 @@ struct RenderOptions {
     std::string device;
     std::string method = "mis";
     std::string termination = "roulette";
+    std::string guide = "on";
     std::string light_choice;  // empty: the method's own
     std::string sampler = "sobol";
     std::string distance = "exponential";

@@ -176,6 +176,7 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
         {"relative_error", number(result.film.relative_error)},
         {"bias", job.settings.bias()},
         {"nonfinite_samples", result.film.nonfinite.samples},
+        {"guided", result.guided},
         {"interrupted", result.interrupted},
         {"memory_bytes", memory_report(result)},
         {"warnings", result.warnings},

@@ -189,6 +189,26 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
     return tables;
 }
 
+double extinction_around(
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    const MediaTables& tables,
+    const Vec3d& point) {
+    double largest = 0;
+    if (!tables.scatter) return largest;
+    for (const Body& body : bodies_with_media(scene, geometry)) {
+        if (body.winding(point) < 0.5) continue;
+        for (const uint32_t m : body.boundaries) {
+            if (!scene.materials[m].medium.scatters()) continue;
+            const DeviceMedium& medium = tables.media[tables.rows[m] - 1];
+            largest = std::max(
+                {largest, double{medium.sigma_t_r}, double{medium.sigma_t_g},
+                 double{medium.sigma_t_b}});
+        }
+    }
+    return largest;
+}
+
 uint32_t media_at_camera(
     const Scene& scene,
     const NormalisedScene& geometry,

@@ -25,6 +25,14 @@ struct MediaTables {
 // name.
 MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geometry);
 
+// The largest sigma_t [1/normalised length] of the media that scatter and surround a point; 0:
+// none.
+double extinction_around(
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    const MediaTables& tables,
+    const Vec3d& point);
+
 // MEDIUM_STACK of rays that start at the camera, whose fields `params` holds: the bodies around it,
 // the smallest innermost. Throws Error where the plane that an orthographic camera's rays start in
 // cuts through a boundary.

@@ -39,6 +39,7 @@ std::string Features::defines() const {
     define("SAMPLE_LIGHTS", sample_lights);
     define("SAMPLE_LOBES", sample_lobes);
     define("WEIGH_BOTH", weigh_both);
+    define("HAS_GUIDE", guide);
     define("SAMPLER_SOBOL", sobol);
     text += fmt::format("#define RAYS_PER_ITEM {}\n", rays_per_item);
     return text;

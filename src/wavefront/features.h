@@ -43,6 +43,7 @@ struct Features {
     bool sample_lights = false;
     bool sample_lobes = false;
     bool weigh_both = false;
+    bool guide = false;  // the renderer's to decide
     bool sobol = true;
     uint32_t rays_per_item = 1;  // 1 or stream_rays
 

@@ -22,11 +22,11 @@ bool parse_number(std::string_view text, T& value) {
 
 const std::vector<Method>& methods() {
     static const std::vector<Method> all{
-        {"path", false, false, false, LightChoice::area},
-        {"direct", true, false, false, LightChoice::area},
-        {"bsdf", false, true, false, LightChoice::area},
-        {"direct-bsdf", true, true, false, LightChoice::area},
-        {"mis", true, true, true, LightChoice::power},
+        {"path", false, false, false, false, LightChoice::area},
+        {"direct", true, false, false, false, LightChoice::area},
+        {"bsdf", false, true, false, false, LightChoice::area},
+        {"direct-bsdf", true, true, false, false, LightChoice::area},
+        {"mis", true, true, true, true, LightChoice::power},
     };
     return all;
 }

@@ -24,6 +24,7 @@ struct Method {
         false;  // choose points on lights; emission met by chance counts only where that cannot
     bool sample_lobes = false;  // directions follow the bsdf; else uniform in projected solid angle
     bool weigh_both = false;    // both, by the power heuristic
+    bool guide = false;  // some directions are aimed at the lamps' surroundings; needs weigh_both
     LightChoice light_choice = LightChoice::area;
     Distances distances = Distances::exponential;
     bool phase_directions = true;  // in media directions follow the phase function; else uniform

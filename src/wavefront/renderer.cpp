@@ -2,6 +2,7 @@
 
 #include "device/program.h"
 #include "scene/camera.h"
+#include "scene/light_guide.h"
 #include "wavefront/sample_plan.h"
 
 #include <algorithm>
@@ -194,6 +195,11 @@ RenderResult render(
     const bool branches = settings.splits.reflections > 1 ||
                           (media.scatter && (settings.splits.directions > 1 ||
                                              features.distances != Distances::exponential));
+    std::optional<LightGuide> guide;
+    if (settings.method.guide && features.weigh_both && !features.transmission)
+        guide = guide_to_lights(scene, geometry, tables, media);
+    features.guide = guide.has_value();
+    result.guided = features.guide;
     features.split_levels = branches ? settings.split_depth : 0;
     result.times.normalise = watch.lap();
     Bvh bvh = build_bvh(geometry.positions);
@@ -207,6 +213,12 @@ RenderResult render(
     result.times.upload = watch.lap();
 
     RenderParams params = scene_params(scene, geometry, tables, settings);
+    if (guide) {
+        params.guide_x = static_cast<float>(guide->centre[0]);
+        params.guide_y = static_cast<float>(guide->centre[1]);
+        params.guide_z = static_cast<float>(guide->centre[2]);
+        params.guide_radius2 = static_cast<float>(guide->radius * guide->radius);
+    }
     params.camera_media = media_at_camera(scene, geometry, media, params);
     const cl::Program program = build_program(
         device, assemble_source(features.defines(), QueueManager::kernel_files(features)),

@@ -61,6 +61,7 @@ struct RenderResult {
     std::size_t texture_bytes = 0;                                // of scene_bytes
     uint32_t texture_pages = 0;
     std::vector<std::string> warnings;
+    bool guided = false;  // directions were aimed at the lamps' surroundings
     bool interrupted = false;
 };
 

@@ -66,7 +66,9 @@ namespace {
     FIELD(RenderParams, environment_r) FIELD(RenderParams, environment_g)                         \
     FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)                       \
     FIELD(RenderParams, camera_media) FIELD(RenderParams, stops)                                  \
-    FIELD(RenderParams, stop_directions) FIELD(RenderParams, padding)                                \
+    FIELD(RenderParams, stop_directions) FIELD(RenderParams, padding)                             \
+    FIELD(RenderParams, guide_x) FIELD(RenderParams, guide_y) FIELD(RenderParams, guide_z)        \
+    FIELD(RenderParams, guide_radius2)                                                            \
     STRUCT(PlanRow)                                                                               \
     FIELD(PlanRow, first_sample) FIELD(PlanRow, samples) FIELD(PlanRow, batch_start)              \
     FIELD(PlanRow, closes_batch)                                                                  \
