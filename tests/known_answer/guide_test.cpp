@@ -44,10 +44,12 @@ void expect_same_means(const Scene& scene, double bias) {
 }
 
 // S3: a white patch two metres beside a square lamp of one metre; the lamp lights a black panel
-// beside it, and so is aimed at.
+// beside it, and so is aimed at. Another lamp on its back takes nine tenths of the light points, so
+// that aimed directions weigh as much as the rest.
 TEST(Guide, IrradianceOfASquareLight) {
     Scene scene = scene_named("square light");
     add_square(scene, lambert(grey(0), grey(1)), {0, 0, 1}, {0, 0, -1}, 1);
+    add_square(scene, lambert(grey(0), grey(9)), {0, 0, 1.01}, {0, 0, 1}, 1);
     add_square(scene, lambert(grey(0)), {-0.8, 0, 0.9}, {1, 0, 0}, 0.1);
     add_square(scene, lambert(grey(0)), {0, 0, -2}, {0, 0, 1}, 6);
     add_square(scene, lambert(grey(1)), {2, 1, 0}, {0, 0, 1}, 0.02);
