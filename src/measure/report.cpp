@@ -105,6 +105,7 @@ ordered_json settings_report(const RenderJob& job) {
         {"seed", settings.seed},
         {"method", settings.method.name},
         {"light_choice", settings.method.light_choice == LightChoice::area ? "area" : "power"},
+        {"guide", settings.method.guide},
         {"termination", settings.termination.text()},
         {"sampler", settings.sobol ? "sobol" : "independent"},
         {"splits",

@@ -239,7 +239,7 @@ RenderResult render(
         throw Error(
             "{} MiB of device memory needed, {} MiB there; use a smaller --size or --pool, or "
             "another --device",
-            needed >> 20U, device.info.global_memory >> 20U);
+            (needed + (uint64_t{1} << 20U) - 1) >> 20U, device.info.global_memory >> 20U);
     // last, so that no buffer takes the place of one it freed: oclgrind mixes them up
     warm_up(device, program, features, buffers, settings, params);
     result.times.program_build = watch.lap();

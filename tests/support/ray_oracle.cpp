@@ -109,7 +109,23 @@ bool RayOracle::passes_through(const TestRay& ray, int primitive) const {
     return *least >= 0 || *most <= 0;
 }
 
+bool RayOracle::is_on_ray(const TestRay& ray, const TestHit& hit) const {
+    const auto triangle = static_cast<std::size_t>(hit.primitive);
+    const Point u = minus(corner(mesh_, triangle, 1), corner(mesh_, triangle, 0));
+    const Point v = minus(corner(mesh_, triangle, 2), corner(mesh_, triangle, 0));
+    const Point normal{
+        u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const Point d = widened(ray.direction);
+    const double cosine = std::abs(dot(normal, d)) / std::sqrt(dot(normal, normal) * dot(d, d));
+    if (cosine < 0.01) return true;
+    Point apart = minus(point_of(hit), widened(ray.origin));
+    for (std::size_t k = 0; k < 3; ++k) apart[k] -= double{hit.t} * d[k];
+    return hit.u >= 0 && hit.v >= 0 && hit.u + hit.v <= 1 + 1e-6F &&
+           std::sqrt(dot(apart, apart)) <= 1e-5;
+}
+
 bool RayOracle::agree(const TestRay& ray, const TestHit& ours, const TestHit& theirs) const {
+    if (ours.primitive >= 0 && !is_on_ray(ray, ours)) return false;
     if (ours.primitive == theirs.primitive) return true;
     if (ours.primitive >= 0 && theirs.primitive >= 0) {
         const Point apart = minus(point_of(ours), point_of(theirs));

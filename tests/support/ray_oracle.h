@@ -32,7 +32,9 @@ class RayOracle {
     explicit RayOracle(const TestMesh& mesh);
     TestHit closest(const TestRay& ray) const;
 
-    // Two answers to one ray: alike, or different where float cannot decide, judged in double.
+    // Two answers to one ray, ours with a t and barycentrics that meet within 1e-5 of each other
+    // unless the ray grazes its triangle, whose sliver float cannot measure: alike, or different
+    // where float cannot decide, judged in double.
     //  - the same triangle, or hit points within 1e-5 of each other (adjacent or coincident), or
     //  - one of them stops at a triangle that has an edge within 1e-6 of the ray (a silhouette), or
     //  - ours is right: Embree meets slivers seen edge-on far from where the ray passes them.
@@ -40,6 +42,7 @@ class RayOracle {
 
   private:
     std::array<double, 3> point_of(const TestHit& hit) const;
+    bool is_on_ray(const TestRay& ray, const TestHit& hit) const;
     double edge_distance(const TestRay& ray, int primitive) const;
     bool passes_through(const TestRay& ray, int primitive) const;
 

@@ -57,6 +57,25 @@ TEST_F(RenderCommand, WritesPicturesAndAReport) {
     EXPECT_EQ(paths, 16U * 8U * 8U);
 }
 
+// What other programs make of the file: OpenImageIO's tool and OpenEXR's own.
+TEST_F(RenderCommand, WritesOpenExrThatOthersRead) {
+    if (std::system("command -v oiiotool exrheader > /dev/null") != 0)
+        GTEST_SKIP() << "oiiotool and exrheader are not installed";
+    run("render " + cornell_box + " --size 16x8 --spp 4 --quiet -o " + path("a.exr"));
+    const auto words_of = [&](const std::string& tool) {
+        EXPECT_EQ(std::system((tool + " " + path("a.exr") + " > " + path("words")).c_str()), 0);
+        return folder.read("words");
+    };
+    const std::string oiio = words_of("oiiotool --info -v --stats");
+    EXPECT_THAT(oiio, HasSubstr("16 x    8, 13 channel, float openexr"));
+    EXPECT_THAT(oiio, HasSubstr("channel list: R, G, B, "));
+    EXPECT_THAT(oiio, HasSubstr("wavepath.samples: \"4\""));
+    EXPECT_THAT(oiio, HasSubstr("NanCount: 0 0 0 0"));
+    const std::string openexr = words_of("exrheader");
+    EXPECT_THAT(openexr, HasSubstr("depth.Z, 32-bit floating-point"));
+    EXPECT_THAT(openexr, HasSubstr("wavepath.method (type string): \"mis\""));
+}
+
 TEST_F(RenderCommand, NamesTheBiasOfADepthCut) {
     run("render " + cornell_box + " --size 4x4 --spp 1 --termination depth:2 -o " + path("d.exr"));
     EXPECT_NE(read_exr(path("d.exr")).metadata.at("wavepath.bias").find('2'), std::string::npos);
