@@ -97,7 +97,8 @@ std::optional<LightGuide> guide_to_lights(
 
     const std::size_t step = lamps.size() / lights_looked_at + 1;
     for (std::size_t t = 0; t < geometry.triangle_count(); ++t) {
-        if (lights.triangle_lights[t] != NO_LIGHT) continue;
+        const bool opaque = scene.materials[geometry.materials[t]].boundary == Boundary::opaque;
+        if (!opaque || lights.triangle_lights[t] != NO_LIGHT) continue;
         const Triangle triangle = triangle_of(geometry, t);
         if (!touches(triangle, guide)) continue;
         for (std::size_t i = 0; i < lamps.size(); i += step) {

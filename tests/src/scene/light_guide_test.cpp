@@ -52,6 +52,13 @@ TEST(LightGuide, NeedsALampThatIsCloseToSomething) {
     EXPECT_FALSE(guide_of(scene).has_value());
 }
 
+TEST(LightGuide, SeesNoSurfaceInABoundary) {
+    Scene scene = ceiling_and_floor();
+    add_square(scene, lambert(grey(0), grey(1)), {0, 0, 0}, {0, 1, 0}, 0.2);
+    add_box(scene, boundary_of({}), {-1, 0.05, -1}, {1, 0.5, 1}, Facing::outward);
+    EXPECT_FALSE(guide_of(scene).has_value());
+}
+
 TEST(LightGuide, NeedsLampsThatAreTogether) {
     Scene scene = ceiling_and_floor();
     add_square(scene, lambert(grey(0), grey(1)), {-0.8, 0.9, 0}, {0, 1, 0}, 0.2);
