@@ -67,7 +67,6 @@ kernel void sample_indirect(
     }
     if (HAS_GUIDE) {
         wi = select3(guided, guide_sample(guide, u), wi);
-        s.wi = select3(guided, to_local(frame, wi), s.wi);
         const Scattered scattered = scatter_towards(surface, frame, ng, wo, wi);
         const int delta = !guided & (s.pdf_w == PDF_CERTAIN);
         const float mixture = guided_pdf_w(guide, wi, scattered.pdf_w);
@@ -83,7 +82,7 @@ kernel void sample_indirect(
     const Vec3 throughput = mul3(child.carried, weight);
     // A direction along the face would leak light through it: it counts as absorbed.
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
-    goes_on *= side * s.wi.z <= 0.0f ? 0.0f : 1.0f;
+    goes_on *= (!guided & (side * s.wi.z <= 0.0f)) ? 0.0f : 1.0f;
     goes_on *= side * dot3(ng, wi) <= 0.0f ? 0.0f : 1.0f;
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;
     const int continues = goes_on > 0.0f;

@@ -10,9 +10,10 @@ namespace {
 
 // Of the sphere about the lamps: 1 to 1.6 are within a tenth of each other on closelight and fog.
 constexpr double margin = 1.4;
-// Beyond, the cone is most of what a surface sees; below, float cannot aim.
+// Beyond, the cone is most of what a surface sees; below, the rounding of
+// directions at the rim of the cone would show.
 constexpr double largest_radius = 0.25;
-constexpr double smallest_radius = 1e-4;
+constexpr double smallest_radius = 0.01;
 // Looked at to tell whether a surface is lit: spread over a lamp, they stand for all.
 constexpr std::size_t lights_looked_at = 64;
 
