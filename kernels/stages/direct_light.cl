@@ -126,8 +126,10 @@ kernel void direct_light(
     float pdf_w = scattered.pdf_w;
     // of the surface, that the connection leaves on
     float side = HAS_TRANSMISSION && dot3(ng, s.wi) < 0.0f ? -1.0f : 1.0f;
+    Guide aimed;
     if (HAS_GUIDE) {
-        const Guide guide = guide_over(guide_at(&params, p), ng, gltf_diffuse_share(surface, wo));
+        aimed = guide_at(&params, p);
+        const Guide guide = guide_over(aimed, ng, gltf_diffuse_share(surface, wo));
         pdf_w = guided_pdf_w(guide, s.wi, pdf_w);
     }
     if (HAS_MEDIA && MEDIA_SCATTER) {
@@ -135,7 +137,7 @@ kernel void direct_light(
         const float phase = phase_eval(g, direction, s.wi);
         f = select3(in_medium, vec3(phase, phase, phase), f);
         float phase_pdf = phase_pdf_w(phase);
-        if (HAS_GUIDE) phase_pdf = guided_pdf_w(guide_at(&params, p), s.wi, phase_pdf);
+        if (HAS_GUIDE) phase_pdf = guided_pdf_w(aimed, s.wi, phase_pdf);
         pdf_w = in_medium ? phase_pdf : pdf_w;
     }
     if (ROUGH_DIELECTRICS) {

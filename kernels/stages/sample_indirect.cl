@@ -62,8 +62,10 @@ kernel void sample_indirect(
     float pdf_w = s.pdf_w;
     if (HAS_SHADING_NORMALS) {
         wi = select3(side * dot3(ng, wi) < 0.0f, mirror3(wi, ng), wi);
-        const float both = scatter_towards(surface, frame, ng, wo, wi).pdf_w;
-        pdf_w = pdf_w == PDF_CERTAIN ? pdf_w : both;
+        if (!HAS_GUIDE) {
+            const float both = scatter_towards(surface, frame, ng, wo, wi).pdf_w;
+            pdf_w = pdf_w == PDF_CERTAIN ? pdf_w : both;
+        }
     }
     if (HAS_GUIDE) {
         wi = select3(guided, guide_sample(guide, u), wi);

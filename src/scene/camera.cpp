@@ -11,10 +11,6 @@ namespace wavepath {
 
 namespace {
 
-Vec3d minus(const Vec3d& a, const Vec3d& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 Vec3d times(const Vec3d& a, double s) {
     return {a[0] * s, a[1] * s, a[2] * s};
 }

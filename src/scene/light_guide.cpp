@@ -1,5 +1,7 @@
 #include "scene/light_guide.h"
 
+#include "scene/transform.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,8 +12,8 @@ namespace {
 
 // Of the sphere about the lamps: 1 to 1.6 are within a tenth of each other on closelight and fog.
 constexpr double margin = 1.4;
-// Beyond, the cone is most of what a surface sees; below, the rounding of
-// directions at the rim of the cone would show.
+// Beyond, the cone is most of what a surface sees; below, the rounding of directions at the rim of
+// the cone would show.
 constexpr double largest_radius = 0.25;
 constexpr double smallest_radius = 0.01;
 // Looked at to tell whether a surface is lit: spread over a lamp, they stand for all.
@@ -20,27 +22,13 @@ constexpr std::size_t lights_looked_at = 64;
 using Triangle = std::array<Vec3d, 3>;
 
 Triangle triangle_of(const NormalisedScene& geometry, std::size_t triangle) {
-    Triangle corners;
-    for (std::size_t k = 0; k < 9; ++k)
-        corners[k / 3][k % 3] = geometry.positions[9 * triangle + k];
-    return corners;
-}
-
-Vec3d minus(const Vec3d& a, const Vec3d& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Vec3d& a, const Vec3d& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    return {
+        vec3_at(geometry.positions, 3 * triangle), vec3_at(geometry.positions, 3 * triangle + 1),
+        vec3_at(geometry.positions, 3 * triangle + 2)};
 }
 
 Vec3d unit_normal(const Triangle& t) {
-    const Vec3d u = minus(t[1], t[0]);
-    const Vec3d v = minus(t[2], t[0]);
-    const Vec3d cross{
-        u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    const double length = std::sqrt(dot(cross, cross));
-    return {cross[0] / length, cross[1] / length, cross[2] / length};
+    return normalized(cross(minus(t[1], t[0]), minus(t[2], t[0])));
 }
 
 LightGuide sphere_about(const std::vector<Triangle>& lamps) {

@@ -2,6 +2,7 @@
 
 #include "error.h"
 #include "scene/device_material.h"
+#include "scene/transform.h"
 
 #include <algorithm>
 #include <array>
@@ -19,10 +20,6 @@ using Point = std::array<float, 3>;
 
 Vec3d minus(const Point& a, const Vec3d& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Vec3d& a, const Vec3d& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c) {

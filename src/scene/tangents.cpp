@@ -9,10 +9,6 @@
 namespace wavepath {
 namespace {
 
-Vec3d minus(const Vec3d& a, const Vec3d& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 void add_scaled(Vec3d& sum, const Vec3d& v, double s) {
     for (std::size_t k = 0; k < 3; ++k) sum[k] += s * v[k];
 }

@@ -64,6 +64,10 @@ Vec3d transform_normal(const Matrix4& m, const Vec3d& n) {
     return normalized(r);
 }
 
+Vec3d minus(const Vec3d& a, const Vec3d& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
 double dot(const Vec3d& a, const Vec3d& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

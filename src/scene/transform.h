@@ -33,6 +33,8 @@ Vec3d transform_point(const Matrix4& matrix, const Vec3d& point);
 // matrices. Unit, or zero where it has no direction.
 Vec3d transform_normal(const Matrix4& matrix, const Vec3d& normal);
 
+Vec3d minus(const Vec3d& a, const Vec3d& b);
+
 double dot(const Vec3d& a, const Vec3d& b);
 
 Vec3d cross(const Vec3d& a, const Vec3d& b);
