@@ -68,8 +68,10 @@ int run(int argc, char** argv) {
             std::fputs(wavepath::man_page(app).c_str(), stdout);
         else if (!completion.empty())
             std::fputs(wavepath::bash_completion(app).c_str(), stdout);
-        else if (app.get_subcommands().empty())
-            std::fputs(app.help().c_str(), stdout);
+        else if (app.get_subcommands().empty()) {
+            spdlog::error("no command given: render, profile or devices; see wavepath --help");
+            return exit_failure;
+        }
     } catch (const CLI::ParseError& error) {
         return usage_error(app, error);
     } catch (const wavepath::Interrupted&) {

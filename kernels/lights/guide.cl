@@ -43,10 +43,11 @@ INLINE Guide guide_over(const Guide guide, const Vec3 ng, const float diffuse) {
     return g;
 }
 
-// pdf_w [1/sr] of a direction that bsdf or phase function would draw with pdf_w.
-INLINE float guided_pdf_w(const Guide g, const Vec3 wi, const float pdf_w) {
+// pdf_w [1/sr] of a direction that bsdf or phase function would draw with pdf_w. `guided`: it was
+// drawn from the cone, and so lies in it, whatever rounding says at the rim.
+INLINE float guided_pdf_w(const Guide g, const int guided, const Vec3 wi, const float pdf_w) {
     const Vec3 step = sub3(wi, g.axis);
-    const int inside = 0.5f * dot3(step, step) <= g.one_minus_cos;
+    const int inside = guided | (0.5f * dot3(step, step) <= g.one_minus_cos);
     const float cone = inside ? 0.5f * INV_PI_F / g.one_minus_cos : 0.0f;
     return fma(g.share, cone, (1.0f - g.share) * pdf_w);
 }

@@ -130,14 +130,14 @@ kernel void direct_light(
     if (HAS_GUIDE) {
         aimed = guide_at(&params, p);
         const Guide guide = guide_over(aimed, ng, gltf_diffuse_share(surface, wo));
-        pdf_w = guided_pdf_w(guide, s.wi, pdf_w);
+        pdf_w = guided_pdf_w(guide, 0, s.wi, pdf_w);
     }
     if (HAS_MEDIA && MEDIA_SCATTER) {
         const float g = media[(int)max(innermost_medium(stack), 1u) - 1].anisotropy;
         const float phase = phase_eval(g, direction, s.wi);
         f = select3(in_medium, vec3(phase, phase, phase), f);
         float phase_pdf = phase_pdf_w(phase);
-        if (HAS_GUIDE) phase_pdf = guided_pdf_w(aimed, s.wi, phase_pdf);
+        if (HAS_GUIDE) phase_pdf = guided_pdf_w(aimed, 0, s.wi, phase_pdf);
         pdf_w = in_medium ? phase_pdf : pdf_w;
     }
     if (ROUGH_DIELECTRICS) {

@@ -71,7 +71,7 @@ kernel void sample_indirect(
         wi = select3(guided, guide_sample(guide, u), wi);
         const Scattered scattered = scatter_towards(surface, frame, ng, wo, wi);
         const int delta = !guided & (s.pdf_w == PDF_CERTAIN);
-        const float mixture = guided_pdf_w(guide, wi, scattered.pdf_w);
+        const float mixture = guided_pdf_w(guide, guided, wi, scattered.pdf_w);
         s.weight = select3(
             delta, scale3(s.weight, 1.0f / (1.0f - guide.share)),
             scale3(scattered.value, mixture > 0.0f ? 1.0f / mixture : 0.0f));

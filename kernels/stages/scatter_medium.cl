@@ -51,7 +51,7 @@ kernel void scatter_medium(
     if (HAS_GUIDE) {
         s.wi = select3(guided, guide_sample(guide, u), s.wi);
         const float phase = phase_eval(anisotropy, direction, s.wi);
-        const float mixture = guided_pdf_w(guide, s.wi, phase_pdf_w(phase));
+        const float mixture = guided_pdf_w(guide, guided, s.wi, phase_pdf_w(phase));
         PLANE(hits, HIT_WORTH)[slot] = guide_worth(mixture, phase_pdf_w(phase));
         s.weight = phase / mixture;
         s.pdf_w = mixture;

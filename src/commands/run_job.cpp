@@ -10,7 +10,7 @@ namespace wavepath {
 RenderResult run_job(const Device& device, const RenderJob& job, bool quiet) {
     for (const std::string& line : job.scene.ignored) spdlog::warn("{}: {}", job.scene.name, line);
     spdlog::info(
-        "{}: {} triangles, {}x{}, {} on {}; kernels are compiled the first time, for some seconds",
+        "{}: {} triangles, {}x{}, {} on {}; its kernels take some seconds where they are new",
         job.scene.name, job.scene.triangle_count(), job.settings.width, job.settings.height,
         job.settings.method.name, device.info.name);
 

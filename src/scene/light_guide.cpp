@@ -12,10 +12,8 @@ namespace {
 
 // Of the sphere about the lamps: 1 to 1.6 are within a tenth of each other on closelight and fog.
 constexpr double margin = 1.4;
-// Beyond, the cone is most of what a surface sees; below, the rounding of directions at the rim of
-// the cone would show.
+// Beyond, the cone is most of what a surface sees.
 constexpr double largest_radius = 0.25;
-constexpr double smallest_radius = 0.01;
 // Looked at to tell whether a surface is lit: spread over a lamp, they stand for all.
 constexpr std::size_t lights_looked_at = 64;
 
@@ -79,7 +77,7 @@ std::optional<LightGuide> guide_to_lights(
     }
     if (lamps.empty() || chance < 0.5) return std::nullopt;
     const LightGuide guide = sphere_about(lamps);
-    if (guide.radius > largest_radius || guide.radius < smallest_radius) return std::nullopt;
+    if (guide.radius > largest_radius) return std::nullopt;
 
     const double extinction = extinction_around(scene, geometry, media, guide.centre);
     if (extinction > 0 && extinction * guide.radius < 1) return guide;

@@ -101,6 +101,7 @@ std::vector<Body> bodies_with_media(const Scene& scene, const NormalisedScene& g
         first = end;
     }
     std::vector<Body> found;
+    found.reserve(bodies.size());
     for (auto& [number, body] : bodies) found.push_back(std::move(body));
     return found;
 }

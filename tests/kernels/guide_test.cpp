@@ -23,12 +23,13 @@ kernel void directions(const uint count, global float* out, const float distance
     Sample2 u = unit_pair(independent_pair(i, 29));
     const int guided = choose_guided(guide, &u);
     const Vec3 wi = guided ? guide_sample(guide, u) : sample_sphere(u);
-    out[5 * i] = guide.share;
-    out[5 * i + 1] = 1.0f - dot3(wi, guide.axis);
-    out[5 * i + 2] = atan2_turns(dot3(wi, vec3(0.8f, 0.0f, -0.6f)),
+    out[6 * i] = guide.share;
+    out[6 * i + 1] = 1.0f - dot3(wi, guide.axis);
+    out[6 * i + 2] = atan2_turns(dot3(wi, vec3(0.8f, 0.0f, -0.6f)),
                                  dot3(wi, vec3(0.36f, 0.8f, 0.48f))) + 0.5f;
-    out[5 * i + 3] = guided_pdf_w(guide, wi, 0.25f * INV_PI_F);
-    out[5 * i + 4] = guide.one_minus_cos;
+    out[6 * i + 3] = guided_pdf_w(guide, guided, wi, 0.25f * INV_PI_F);
+    out[6 * i + 4] = guide.one_minus_cos;
+    out[6 * i + 5] = guided;
 }
 )";
 
@@ -42,7 +43,7 @@ const Probe& probe() {
 TEST(Guide, DirectionsFollowTheirDensity) {
     for (const float distance : {0.15F, 0.4F, 1.0F}) {
         const std::size_t n = scaled(1U << 20U);
-        const auto out = probe().run<float>("directions", n, 5 * n, distance);
+        const auto out = probe().run<float>("directions", n, 6 * n, distance);
         const double share = out[0];
         const double rim = out[4];
         EXPECT_NEAR(share, 0.2, 1e-6);
@@ -54,11 +55,11 @@ TEST(Guide, DirectionsFollowTheirDensity) {
         double inverse = 0;
         for (std::size_t i = 0; i < n; ++i) {
             std::size_t ring = 0;
-            while (ring + 2 < rings.size() && out[5 * i + 1] > rings[ring + 1]) ++ring;
+            while (ring + 2 < rings.size() && out[6 * i + 1] > rings[ring + 1]) ++ring;
             const auto sector = std::min<std::size_t>(
-                sectors - 1, static_cast<std::size_t>(out[5 * i + 2] * sectors));
+                sectors - 1, static_cast<std::size_t>(out[6 * i + 2] * sectors));
             ++counts[ring * sectors + sector];
-            inverse += 1 / static_cast<double>(out[5 * i + 3]) / static_cast<double>(n);
+            inverse += 1 / static_cast<double>(out[6 * i + 3]) / static_cast<double>(n);
         }
         for (std::size_t ring = 0; ring + 1 < rings.size(); ++ring) {
             const double width = rings[ring + 1] - rings[ring];
@@ -73,8 +74,23 @@ TEST(Guide, DirectionsFollowTheirDensity) {
     }
 }
 
+// A direction at the rim that is taken for one outside weighs thousands of times too much.
+TEST(Guide, RimsOfNarrowConesWeighByTheCone) {
+    const std::size_t n = scaled(1U << 20U);
+    const auto out = probe().run<float>("directions", n, 6 * n, 1000.0F);
+    const double cone = 1 / (2 * std::numbers::pi * static_cast<double>(out[4]));
+    EXPECT_NEAR(out[4], 5e-9, 1e-12);
+    std::size_t guided = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (out[6 * i + 5] == 0) continue;
+        ++guided;
+        ASSERT_GE(out[6 * i + 3], 0.199 * cone) << i;
+    }
+    EXPECT_GT(guided, n / 6);
+}
+
 TEST(Guide, AimsNowhereFromCloseBy) {
-    const auto out = probe().run<float>("directions", 1, 5, 0.105F);
+    const auto out = probe().run<float>("directions", 1, 6, 0.105F);
     EXPECT_EQ(out[0], 0);
     EXPECT_NEAR(out[3], 0.25 / std::numbers::pi, 1e-7);
 }

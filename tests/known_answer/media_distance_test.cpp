@@ -74,6 +74,30 @@ TEST(MediaDistance, HasThePredictedVarianceAboutAPointLight) {
     }
 }
 
+// So thin that nothing is extinguished: 1 / r^2 alone, whose integral is 2 atan(1 / D) / D. Stops
+// alike for all of the ray die by 1 / (pi D), equiangular ones have the integrand's own density.
+TEST(MediaDistance, HasThePredictedVarianceWhereNothingIsExtinguished) {
+    const struct {
+        double height, relative_variance;
+        uint32_t size;
+    } cases[] = {{1, .041904507, 256}, {0.1, 2.6274963, 256}, {0.01, 31.240149, 512}};
+    constexpr double sigma = 1e-4;
+    for (const auto& [height, relative_variance, size] : cases) {
+        SCOPED_TRACE(height);
+        const Airlight airlight{sigma, height, 2 * std::atan(1 / height) / height, 2};
+        const double mean = airlight.radiance();
+        const Strictness strictness{
+            .bias = 0.2, .tests = std::size(cases), .truth_error = 4 * sigma};
+        const RenderResult even =
+            render_scene(airlight.scene(), airlight.settings(Distances::uniform, size, 1));
+        EXPECT_TRUE(has_mean(sample_variance(even), relative_variance * mean * mean, strictness));
+        const RenderResult aimed =
+            render_scene(airlight.scene(), airlight.settings(Distances::equiangular, 256, 1));
+        EXPECT_LT(sample_variance(aimed).mean, 1e-7 * mean * mean);
+        EXPECT_NEAR(shared_mean(aimed).mean / mean, 1, 4 * sigma);
+    }
+}
+
 TEST(MediaDistance, HasTheMeanOfAirlight) {
     const struct {
         Airlight airlight;

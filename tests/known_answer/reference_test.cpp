@@ -1,7 +1,8 @@
 // The bundled scenes against another renderer: means of 8 x 8 blocks of 256 x 256 pixels with their
-// standard errors, from Mitsuba 3.9 (path, box filter), in reference/. Block (0, 0)
-// is the top left one.
+// standard errors, from Mitsuba 3.9 (path or volpath, box filter), in reference/. Block (0, 0) is
+// the top left one.
 #include "scene/gltf_loader.h"
+#include "support/media.h"
 #include "support/rendering.h"
 
 #include <nlohmann/json.hpp>
@@ -68,6 +69,17 @@ TEST(Reference, BoxLightAllOrders_long) {
     expect_same_picture(
         load_gltf(source + "/scenes/box_light/scene.gltf"), "box_light_all_orders", 32000,
         {.size = 128});
+}
+
+// Fog of albedo 12 / 13 all over the Cornell box and a little beyond, by Mitsuba's volpath.
+TEST(Reference, Fog) {
+    Scene scene = load_gltf(source + "/scenes/cornell_box/scene.gltf");
+    Medium fog;
+    fog.sigma_a = grey(0.05F);
+    fog.sigma_s = grey(0.6F);
+    fog.anisotropy = 0.5F;
+    add_box(scene, boundary_of(fog), {-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}, Facing::outward);
+    expect_same_picture(scene, "fog", 400, {.size = 128});
 }
 
 TEST(Reference, Terrain) {

@@ -70,8 +70,11 @@ MUTATIONS = [
     ("aimed directions weighed without their cone", "lights/guide.cl",
      "fma(g.share, cone, (1.0f - g.share) * pdf_w)", "fma(0.0f, cone, (1.0f - g.share) * pdf_w)",
      "Guide.ChangesNoMeanOfDiffuseWalls"),
+    ("directions at the cone's rim weighed as if outside", "lights/guide.cl",
+     "guided | (", "(",
+     "Guide.RimsOfNarrowConesWeighByTheCone"),
     ("light points weighed as if no direction were aimed", "stages/direct_light.cl",
-     "pdf_w = guided_pdf_w(guide, s.wi, pdf_w);", "pdf_w *= 1.0f - guide.share;",
+     "pdf_w = guided_pdf_w(guide, 0, s.wi, pdf_w);", "pdf_w *= 1.0f - guide.share;",
      "Guide.IrradianceOfASquareLight"),
     ("plain film sum", "stages/fold_film.cl",
      "c.lost = (t - c.sum) - y;", "c.lost = 0.0f;",
@@ -188,6 +191,11 @@ def main():
     if sys.argv[1] == "--check":
         return False
     program, wanted = sys.argv[1], sys.argv[2:]
+    if not os.access(program, os.X_OK):
+        sys.exit(f"{program}: no such program; name the tests' (BUILD/tests/wavepath_tests)")
+    unknown = set(wanted) - {m[0] for m in MUTATIONS}
+    if unknown:
+        sys.exit(f"no such mutation: {', '.join(sorted(unknown))}")
     mutations = [m for m in MUTATIONS if not wanted or m[0] in wanted]
     survivors = 0
     width = max(len(m[0]) for m in mutations)

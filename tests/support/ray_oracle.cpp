@@ -117,11 +117,10 @@ bool RayOracle::is_on_ray(const TestRay& ray, const TestHit& hit) const {
         u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     const Point d = widened(ray.direction);
     const double cosine = std::abs(dot(normal, d)) / std::sqrt(dot(normal, normal) * dot(d, d));
-    if (cosine < 0.01) return true;
     Point apart = minus(point_of(hit), widened(ray.origin));
     for (std::size_t k = 0; k < 3; ++k) apart[k] -= double{hit.t} * d[k];
     return hit.u >= 0 && hit.v >= 0 && hit.u + hit.v <= 1 + 1e-6F &&
-           std::sqrt(dot(apart, apart)) <= 1e-5;
+           std::sqrt(dot(apart, apart)) <= 1e-5 * std::max(1.0, 0.01 / cosine);  // inf: no plane
 }
 
 bool RayOracle::agree(const TestRay& ray, const TestHit& ours, const TestHit& theirs) const {

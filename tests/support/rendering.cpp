@@ -79,7 +79,8 @@ RenderResult render_for(
     if (!(found > strictness.bias)) return pilot;
     const double samples =
         static_cast<double>(settings.samples) * std::pow(found / strictness.bias, 2);
-    if (!(samples * settings.width * settings.height < 2e7)) {
+    const double most = long_tests_wanted() ? 1e9 : 2e7;
+    if (!(samples * settings.width * settings.height < most)) {
         ADD_FAILURE() << scene.name << ": too noisy for a test, " << samples << " samples a pixel";
         return pilot;
     }
