@@ -9,11 +9,12 @@ ASSETS is a folder with goldens/goldens.json, the models and maps that it names 
 build/wavepath and the packages python3-numpy and python3-openimageio.
 
 Ours is shown as Cycles' and V-Ray's goldens are: radiance / 0.6, the ACES fit of Hill, clipped to 0.9999, power 1/2.2.
-Goldens are scaled down by whole factors. Only pixels count whose alpha is 1 in every golden of the scenario, and in
-their neighbours: elsewhere the background shows. For each golden the table has RMSE of the displayed colours and the
-mean of FLIP [Andersson et al. 2020, LDR, 67 pixels a degree] with the error map's pixels outside the mask left out; the
-last column is the least RMSE of two goldens by the same measure: how well independent path tracers agree. Noise of ours
-is in all numbers.
+Goldens were rendered larger and scaled down as they are displayed, which keeps thin dark lines dark, and are scaled down
+further here, by whole factors. Ours is rendered four times as wide and treated alike. Only pixels count that are opaque
+in every golden of the scenario, and in their neighbours: elsewhere the background shows. For each golden the table has
+RMSE of the displayed colours and the mean of FLIP [Andersson et al. 2020, LDR, 67 pixels a degree] with the error map's
+pixels outside the mask left out; the last column is the least RMSE of two goldens by the same measure: how well
+independent path tracers agree. Noise of ours is in all numbers.
 """
 import argparse
 import itertools
@@ -39,6 +40,8 @@ SRGB_TO_XYZ = np.array([[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522
                         [0.0193339, 0.1191920, 0.9503041]])
 WHITE = SRGB_TO_XYZ @ np.ones(3)
 PIXELS_PER_DEGREE = 67.0
+OVERSAMPLING = 4
+OPAQUE = 0.99  # of alpha
 
 
 def stop(message):
@@ -176,14 +179,17 @@ def compare(assets, scenario, options, folder):
     factor = max(1, width // options.width)
     name = scenario["name"].removeprefix("khronos-")
     picture = Path(folder) / f"{name}.exr"
-    problem = render(assets, scenario, width // factor, height // factor, options.spp, picture)
+    problem = render(assets, scenario, width // factor * OVERSAMPLING, height // factor * OVERSAMPLING, options.spp, picture)
     if problem:
         print(f"| {name} | {problem} | | | |")
         return
-    ours = display(read(picture)[..., :3])
+    ours = shrink(display(read(picture)[..., :3]), OVERSAMPLING)
     theirs = {k: shrink(v, factor) for k, v in goldens.items()}
-    covered = [v[..., 3] >= 0.999 if v.shape[2] > 3 else np.ones(v.shape[:2], bool) for v in theirs.values()]
-    mask = eroded(np.logical_and.reduce(covered))
+    covered = {k: v[..., 3] >= OPAQUE if v.shape[2] > 3 else np.ones(v.shape[:2], bool) for k, v in theirs.items()}
+    for blank in [k for k, v in covered.items() if v.mean() < 0.01]:
+        print(f"| {name} | {blank} | nothing is opaque in this golden | | |")
+        del theirs[blank], covered[blank]
+    mask = eroded(np.logical_and.reduce(list(covered.values())))
     theirs = {k: v[..., :3] for k, v in theirs.items()}
     pairs = {f"{a}, {b}": rmse(theirs[a], theirs[b], mask) for a, b in itertools.combinations(theirs, 2)}
     agreement = "one golden only" if not pairs else "{1:.4f} ({0})".format(*min(pairs.items(), key=lambda p: p[1]))
@@ -203,8 +209,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("assets", type=Path)
     parser.add_argument("scenarios", nargs="*")
-    parser.add_argument("--spp", type=int, default=256)
-    parser.add_argument("--width", type=int, default=256, help="of our picture, about")
+    parser.add_argument("--spp", type=int, default=64, help="16 such pixels make one that is compared")
+    parser.add_argument("--width", type=int, default=256, help="of the pictures compared, about")
     parser.add_argument("-o", "--output", type=Path, help="folder for pictures")
     options = parser.parse_args()
     listing = options.assets / "goldens/goldens.json"

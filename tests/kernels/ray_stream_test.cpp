@@ -76,7 +76,7 @@ TEST(RayStream, TracesAsRaysAlone) {
     const std::size_t n = scaled(100);
     std::mt19937 random(5);
     for (const TestMesh& mesh :
-         {box_mesh(), room_mesh(), sphere_mesh(60, 60), soup_mesh(100 * n),
+         {box_mesh(), room_mesh(), sphere_mesh(60, 60), sphere_mesh(300, 300), soup_mesh(100 * n),
           rods_mesh(static_cast<unsigned>(10 * n))}) {
         const Bvh bvh = build_bvh(mesh.positions);
         for (const Aim aim : {Aim::random, Aim::axis_parallel, Aim::edge, Aim::vertex}) {

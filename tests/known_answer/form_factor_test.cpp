@@ -95,7 +95,9 @@ TEST(FormFactor, OfASphereLight) {
             const Camera camera = close_up({0, 0, 0}, normal, 0.1 * gap, 2e-3 * gap);
             const double truth_error =
                 4 * icosphere_sagitta(subdivisions) / std::min(1.0, gap / 0.1);
-            const Strictness strictness{.bias = 0.01, .truth_error = truth_error};
+            // by chance few directions find a sphere most of which is below the horizon
+            const double bias = method == std::string("bsdf") && degrees == 80 ? 0.01 : 0.005;
+            const Strictness strictness{.bias = bias, .truth_error = truth_error};
             const RenderResult result =
                 render_for(strictness, scene, square_settings(method, camera, 16, 512));
             EXPECT_TRUE(has_mean(shared_mean(result), irradiance / pi, strictness));
@@ -129,7 +131,7 @@ TEST(SphereEnclosure, OfTwoHalves) {
         for (const auto& [z, truth] : {std::pair{0.9, 1.2}, {-0.9, 0.8}}) {
             SCOPED_TRACE(fmt::format("{}, half at z = {}", method, z));
             const Camera camera = perspective({0, 0, 0}, {0.3, 0.1, z}, 0.4);
-            const Strictness strictness{.bias = 0.01, .truth_error = 2 * icosphere_sagitta(5)};
+            const Strictness strictness{.truth_error = 2 * icosphere_sagitta(5)};
             const RenderResult result =
                 render_for(strictness, scene, square_settings(method, camera, 32, 128));
             EXPECT_TRUE(has_mean(shared_mean(result), truth, strictness));
@@ -145,7 +147,7 @@ TEST(SphereEnclosure, OfAPointSource) {
     scene.lights.push_back({});
     const Camera camera = perspective({0, 0, 0.3}, {0.3, 0.1, -0.9}, 0.8);
     RenderSettings settings = square_settings("direct", camera, 32, 128);
-    const Strictness strictness{.bias = 0.01, .truth_error = 4 * icosphere_sagitta(5)};
+    const Strictness strictness{.truth_error = 4 * icosphere_sagitta(5)};
     const RenderResult all = render_for(strictness, scene, settings, "G");
     EXPECT_TRUE(has_mean(shared_mean(all, "R"), .318309886184, strictness));
     EXPECT_TRUE(has_mean(shared_mean(all, "G"), 2.864788975654, strictness));

@@ -1,5 +1,11 @@
 // Where a scene lies and how large it is must not show.
+#include "scene/gltf_loader.h"
 #include "support/rendering.h"
+#include "support/temporary_folder.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
 
 namespace wavepath {
 namespace {
@@ -28,6 +34,16 @@ RenderResult corner_at(double scale, const Vec3d& shift) {
 
 // The same random numbers in both pictures: what differs is rounding, which turns a path here and
 // there.
+void expect_same_mean(const RenderResult& home, const RenderResult& away, std::size_t tests) {
+    const std::vector<float>& before = home.film.image.channels.at("R");
+    const std::vector<float>& after = away.film.image.channels.at("R");
+    const double mean = image_mean(home).mean;
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < after.size(); ++i)
+        ratios.push_back(1 + (after[i] - before[i]) / mean);
+    EXPECT_TRUE(has_mean(estimate_of(ratios), 1, {.tests = tests}));
+}
+
 TEST(Invariance, UnderTranslationAndScale) {
     const struct {
         double scale;
@@ -39,22 +55,32 @@ TEST(Invariance, UnderTranslationAndScale) {
         {1e4, {1e6, 0, -1e6}},
         {1e-4, {1, 0, 0}}};
     const RenderResult home = corner_at(1, {0, 0, 0});
-    const std::vector<float>& before = home.film.image.channels.at("R");
-    const double mean = image_mean(home).mean;
     for (const auto& [scale, shift] : cases) {
         SCOPED_TRACE(
             fmt::format("scale {}, shift ({}, {}, {})", scale, shift[0], shift[1], shift[2]));
         const RenderResult result = corner_at(scale, shift);
-        const std::vector<float>& after = result.film.image.channels.at("R");
-        std::vector<double> ratios;
-        for (std::size_t i = 0; i < after.size(); ++i)
-            ratios.push_back(1 + (after[i] - before[i]) / mean);
-        EXPECT_TRUE(has_mean(estimate_of(ratios), 1, {.tests = 5}));
+        expect_same_mean(home, result, 5);
         // the depth layer stays in metres
         constexpr std::size_t middle = 32 * 64 + 32;
         const double depth = result.film.image.channels.at("depth.Z")[middle];
         EXPECT_NEAR(depth / scale, home.film.image.channels.at("depth.Z")[middle], 1e-3);
     }
+}
+
+// The same through a file: a node above all others moves them, the camera too.
+TEST(Invariance, UnderANodeThatMovesTheWholeFile) {
+    const std::string path = WAVEPATH_SOURCE_DIR "/scenes/cornell_box/scene.gltf";
+    std::ifstream file(path);
+    nlohmann::json gltf = nlohmann::json::parse(file);
+    gltf["nodes"].push_back(
+        {{"translation", {1e3, -1e3, 1e3}}, {"children", gltf["scenes"][0]["nodes"]}});
+    gltf["scenes"][0]["nodes"] = {gltf["nodes"].size() - 1};
+    const TemporaryFolder folder;
+    const std::filesystem::path moved = folder.write("moved.gltf", gltf.dump());
+    const auto rendered = [](const Scene& scene) {
+        return render_scene(scene, square_settings("mis", scene.cameras.at(0), 64, 16));
+    };
+    expect_same_mean(rendered(load_gltf(path)), rendered(load_gltf(moved)), 1);
 }
 
 }  // namespace
