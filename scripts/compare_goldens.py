@@ -10,7 +10,7 @@ build/wavepath and the packages python3-numpy and python3-openimageio.
 
 Ours is shown as Cycles' and V-Ray's goldens are: radiance / 0.6, the ACES fit of Hill, clipped to 0.9999, power 1/2.2.
 Goldens were rendered larger and scaled down as they are displayed, which keeps thin dark lines dark, and are scaled down
-further here, by whole factors. Ours is rendered four times as wide and treated alike. Only pixels count that are opaque
+further here, by whole factors. Ours is rendered twice as large as the goldens and treated alike. Only pixels count that are opaque
 in every golden of the scenario, and in their neighbours: elsewhere the background shows. For each golden the table has
 RMSE of the displayed colours and the mean of FLIP [Andersson et al. 2020, LDR, 67 pixels a degree] with the error map's
 pixels outside the mask left out; the last column is the least RMSE of two goldens by the same measure: how well
@@ -40,7 +40,7 @@ SRGB_TO_XYZ = np.array([[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522
                         [0.0193339, 0.1191920, 0.9503041]])
 WHITE = SRGB_TO_XYZ @ np.ones(3)
 PIXELS_PER_DEGREE = 67.0
-OVERSAMPLING = 4
+OVERSAMPLING = 2  # of ours against the goldens as they are stored
 OPAQUE = 0.99  # of alpha
 
 
@@ -179,11 +179,11 @@ def compare(assets, scenario, options, folder):
     factor = max(1, width // options.width)
     name = scenario["name"].removeprefix("khronos-")
     picture = Path(folder) / f"{name}.exr"
-    problem = render(assets, scenario, width // factor * OVERSAMPLING, height // factor * OVERSAMPLING, options.spp, picture)
+    problem = render(assets, scenario, width * OVERSAMPLING, height * OVERSAMPLING, options.spp, picture)
     if problem:
         print(f"| {name} | {problem} | | | |")
         return
-    ours = shrink(display(read(picture)[..., :3]), OVERSAMPLING)
+    ours = shrink(shrink(display(read(picture)[..., :3]), OVERSAMPLING), factor)
     theirs = {k: shrink(v, factor) for k, v in goldens.items()}
     covered = {k: v[..., 3] >= OPAQUE if v.shape[2] > 3 else np.ones(v.shape[:2], bool) for k, v in theirs.items()}
     for blank in [k for k, v in covered.items() if v.mean() < 0.01]:
@@ -209,10 +209,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("assets", type=Path)
     parser.add_argument("scenarios", nargs="*")
-    parser.add_argument("--spp", type=int, default=64, help="16 such pixels make one that is compared")
+    parser.add_argument("--spp", type=int, default=64, help="16 such pixels make one that is compared, at the usual width")
     parser.add_argument("--width", type=int, default=256, help="of the pictures compared, about")
     parser.add_argument("-o", "--output", type=Path, help="folder for pictures")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     listing = options.assets / "goldens/goldens.json"
     if not listing.is_file():
         stop(f"{listing}: no such file; name the folder of assets")

@@ -18,9 +18,11 @@ std::optional<StageType> stage_if(
     const cl::Program& program,
     const std::string& name,
     uint32_t local_size,
-    Profile& profile) {
+    Profile& profile,
+    uint32_t slots_per_item = 1) {
     if (!needed) return std::nullopt;
-    return std::optional<StageType>(std::in_place, program, name, local_size, profile);
+    return std::optional<StageType>(
+        std::in_place, program, name, local_size, profile, slots_per_item);
 }
 
 }  // namespace
@@ -67,7 +69,12 @@ QueueManager::QueueManager(
       count_lag_(count_lag),
       assign_units_(program, "assign_units", groups.streaming, profile),
       generate_rays_(program, "generate_rays", groups.streaming, profile),
-      intersect_(program, "intersect", features.rays_per_item > 1 ? 1 : groups.traversal, profile),
+      intersect_(
+          program,
+          "intersect",
+          features.rays_per_item > 1 ? 1 : groups.traversal,
+          profile,
+          features.rays_per_item),
       sample_distance_(stage_if<decltype(sample_distance_)::value_type>(
           features.media, program, "sample_distance", groups.streaming, profile)),
       interact_(program, "interact", groups.streaming, profile),
@@ -89,7 +96,8 @@ QueueManager::QueueManager(
           program,
           "occlusion",
           features.rays_per_item > 1 ? 1 : groups.traversal,
-          profile)),
+          profile,
+          features.rays_per_item)),
       connect_through_media_(stage_if<decltype(connect_through_media_)::value_type>(
           features.sample_lights && features.media,
           program,
@@ -102,8 +110,8 @@ QueueManager::QueueManager(
       roulette_compact_(program, "roulette_compact", groups.streaming, profile),
       resume_branch_(stage_if<decltype(resume_branch_)::value_type>(
           features.split_levels > 0, program, "resume_branch", groups.streaming, profile)),
-      scan_queue_(program, "scan_queue", groups.traversal, profile),
-      scatter_queue_(program, "scatter_queue", groups.traversal, profile),
+      scan_queue_(program, "scan_queue", groups.traversal, profile, QUEUE_CHUNK),
+      scatter_queue_(program, "scatter_queue", groups.traversal, profile, QUEUE_CHUNK),
       move_paths_(program, "move_paths", groups.traversal, profile),
       accumulate_(program, "accumulate", groups.streaming, profile),
       fold_film_(program, "fold_film", groups.streaming, profile) {}
@@ -124,9 +132,8 @@ bool QueueManager::render(
         generate_rays_.launch(
             device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays,
             pool_.throughputs, pool_.radiances, pool_.media);
-        const uint32_t ray_items = (slots + features_.rays_per_item - 1) / features_.rays_per_item;
         intersect_.launch(
-            device_, ray_items, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
+            device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
             scene_.materials, scene_.textures, pool_.rays, pool_.media, pool_.ids, pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
         if (sample_distance_)
@@ -163,9 +170,8 @@ bool QueueManager::render(
                 pool_.surfaces, pool_.throughputs, pool_.ids, pool_.media, pool_.shadows);
         if (occlusion_)
             occlusion_->launch(
-                device_, (slots + features_.rays_per_item - 1) / features_.rays_per_item, params_,
-                slots, scene_.nodes, scene_.blocks, scene_.triangles, scene_.textures,
-                pool_.shadows, pool_.ids, pool_.radiances, pool_.fates);
+                device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
+                scene_.textures, pool_.shadows, pool_.ids, pool_.radiances, pool_.fates);
         if (connect_through_media_)
             connect_through_media_->launch(
                 device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
@@ -238,7 +244,7 @@ void QueueManager::load_compaction() {
 QueueManager::Work QueueManager::count_work(uint32_t slots, const Work& before) {
     const uint32_t chunks = (slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK;
     scan_queue_.launch(
-        device_, chunks, params_, slots, pool_.fates, pool_.ids, pool_.chunk_states,
+        device_, slots, params_, slots, pool_.fates, pool_.ids, pool_.chunk_states,
         pool_.statistics);
     Count& count = counts_.emplace_back();
     count.chunks.resize(chunks);
@@ -268,8 +274,8 @@ uint32_t QueueManager::compact(uint32_t slots, uint32_t active) {
     const uint32_t kept = (active + QUEUE_CHUNK - 1) / QUEUE_CHUNK * QUEUE_CHUNK;
     if (kept >= slots) return slots;
     scatter_queue_.launch(
-        device_, (slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK, params_, slots, kept, pool_.hits,
-        pool_.chunk_states, pool_.holes, pool_.movers);
+        device_, slots, params_, slots, kept, pool_.hits, pool_.chunk_states, pool_.holes,
+        pool_.movers);
     move_paths_.launch(
         device_, std::min(active, slots - kept), params_, pool_.holes, pool_.movers, pool_.rays,
         pool_.hits, pool_.throughputs, pool_.radiances, pool_.ids, pool_.media, pool_.branches);

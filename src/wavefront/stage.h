@@ -41,11 +41,17 @@ struct KernelArgument<DeviceTextures> {
 template <typename... Args>
 class Stage {
   public:
-    // Throws cl::Error unless the program holds a kernel of this name and number of parameters.
+    // A work-item does `slots_per_item` slots. Throws cl::Error unless the program holds a kernel
+    // of this name and number of parameters.
     Stage(
-        const cl::Program& program, const std::string& name, uint32_t local_size, Profile& profile)
+        const cl::Program& program,
+        const std::string& name,
+        uint32_t local_size,
+        Profile& profile,
+        uint32_t slots_per_item = 1)
         : kernel_(program, name.c_str()),
           local_size_(local_size),
+          slots_per_group_(uint64_t{local_size} * slots_per_item),
           profile_(profile),
           row_(profile.row(name)) {
         constexpr cl_uint passed = (KernelArgument<Args>::count + ...);
@@ -55,23 +61,24 @@ class Stage {
                 kernel_.getInfo<CL_KERNEL_NUM_ARGS>(), passed);
     }
 
-    // One work-item for each of `items`, rounded up to whole work-groups; nothing for none.
-    void launch(const Device& device, uint64_t items, const Args&... args) {
-        if (items == 0) return;
+    // Rounded up to whole work-groups; nothing for no slots.
+    void launch(const Device& device, uint64_t slots, const Args&... args) {
+        if (slots == 0) return;
         cl_uint index = 0;
         ((KernelArgument<Args>::set(kernel_, index, args), index += KernelArgument<Args>::count),
          ...);
-        const uint64_t groups = (items + local_size_ - 1) / local_size_;
+        const uint64_t groups = (slots + slots_per_group_ - 1) / slots_per_group_;
         cl::Event event;
         device.queue.enqueueNDRangeKernel(
             kernel_, cl::NullRange, cl::NDRange(groups * local_size_), cl::NDRange(local_size_),
             nullptr, &event);
-        profile_.add(row_, items, event);
+        profile_.add(row_, slots, event);
     }
 
   private:
     cl::Kernel kernel_;
     uint32_t local_size_;
+    uint64_t slots_per_group_;
     Profile& profile_;
     std::size_t row_;
 };
