@@ -35,11 +35,11 @@ typedef struct {
     shared_uint environment_height;
     shared_float environment_r, environment_g, environment_b;  // radiance, or the scale of the map
     shared_float environment_pmf;                              // of the light choice
+    shared_float environment_left;  // luminance of the map that light points leave to the bsdf
     // media
     shared_uint camera_media;     // MEDIUM_STACK at the camera
     shared_uint stops;            // N stops on a segment that branches
     shared_uint stop_directions;  // M directions from a stop
-    shared_uint padding;
     // the sphere that directions are aimed at [normalised] (lights/guide.cl)
     shared_float guide_x, guide_y, guide_z;
     shared_float guide_radius2;

@@ -90,16 +90,16 @@ typedef struct {
 } DeviceLight;
 SHARED_SIZE(DeviceLight, 80);
 
-// Environment map: one entry a row (its chance to be chosen), then one a texel (its chance within
-// the row), row by row.
+// Environment map. Between the centres of its texels lie height + 1 rows of `width` cells; the
+// first and the last row, at the poles, are half as high. One entry a row of cells (its chance to
+// be chosen), then one a cell (its chance within the row), row by row; it holds the texel that is
+// the cell's corner towards lower u and higher v.
 typedef struct {
     shared_float alias_threshold;
     shared_uint alias;
-    shared_float pmf;  // [1]
-    shared_float padding;
+    shared_float pmf;      // [1]
     shared_float r, g, b;  // radiance
-    shared_float padding2;
 } EnvironmentEntry;
-SHARED_SIZE(EnvironmentEntry, 32);
+SHARED_SIZE(EnvironmentEntry, 24);
 
 #endif

@@ -105,12 +105,11 @@ kernel void direct_light(
     }
     if (HAS_ENVIRONMENT) {
         const int is_environment = light->kind == LIGHT_ENVIRONMENT;
-        const Vec3 wi = environment_sample(environment, &params, point);
-        const float pdf_w = light->pmf * environment_pdf_w(environment, &params, wi);
-        const Vec3 radiance =
-            scale3(environment_eval(environment, &params, wi), pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
-        s.p = select3(is_environment, madd3(p, wi, OUTSIDE_SCENE), s.p);
-        s.wi = select3(is_environment, wi, s.wi);
+        const EnvironmentSample sky = environment_sample(environment, &params, point);
+        const float pdf_w = light->pmf * sky.pdf_w;
+        const Vec3 radiance = scale3(sky.radiance, pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
+        s.p = select3(is_environment, madd3(p, sky.wi, OUTSIDE_SCENE), s.p);
+        s.wi = select3(is_environment, sky.wi, s.wi);
         s.radiance = select3(is_environment, radiance, s.radiance);
         s.pdf_w = is_environment ? pdf_w : s.pdf_w;
     }

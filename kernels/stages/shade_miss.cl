@@ -23,21 +23,23 @@ kernel void shade_miss(
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     const int missed = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_MISS;
+    // A look into a map costs more than vectors of slots save.
+    if (HAS_ENVIRONMENT_MAP && !missed) return;
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
     const float pdf_w = PLANE(throughputs, THROUGHPUT_PDF)[slot];
 
     // Light sampling could have chosen this direction too: leave it its share (direct: all of it).
+    const EnvironmentSample sky = environment_at(environment, &params, direction);
     float weight = 1.0f;
     if (SAMPLE_LIGHTS && params.environment_pmf > 0.0f) {
-        const float light_pdf_w =
-            params.environment_pmf * environment_pdf_w(environment, &params, direction);
+        const float light_pdf_w = params.environment_pmf * sky.pdf_w;
         const float share = WEIGH_BOTH ? power_heuristic(pdf_w, light_pdf_w) : 0.0f;
         weight = pdf_w == PDF_CERTAIN ? 1.0f : share;
     }
     const Vec3 carried =
         scale3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), missed ? weight : 0.0f);
     global float* radiance = PLANE(radiances, RADIANCE_R);
-    const Vec3 light = environment_eval(environment, &params, direction);
     const Vec3 before = load3(radiance, stride, slot);
-    store3(radiance, stride, slot, select3(missed, add3(before, mul3(carried, light)), before));
+    store3(
+        radiance, stride, slot, select3(missed, add3(before, mul3(carried, sky.radiance)), before));
 }

@@ -65,23 +65,6 @@ double punctual_power(const PunctualLight& light) {
     return 0;
 }
 
-// Luminance of a texel, averaged over its square as the bilinear lookup sees it: positive wherever
-// the lookup is.
-double texel_weight(const Environment& map, uint32_t x, uint32_t y) {
-    constexpr double tent[3] = {0.125, 0.75, 0.125};
-    double sum = 0;
-    for (int dy = -1; dy <= 1; ++dy) {
-        const auto row = static_cast<uint32_t>(
-            std::clamp(static_cast<int>(y) + dy, 0, static_cast<int>(map.height) - 1));
-        for (int dx = -1; dx <= 1; ++dx) {
-            const uint32_t column = (x + map.width + static_cast<uint32_t>(dx + 1) - 1) % map.width;
-            const float* texel = &map.pixels[3 * (std::size_t{row} * map.width + column)];
-            sum += tent[dx + 1] * tent[dy + 1] * luminance({texel[0], texel[1], texel[2]});
-        }
-    }
-    return sum;
-}
-
 EnvironmentEntry entry(const AliasRow& row) {
     EnvironmentEntry e{};
     e.alias_threshold = row.threshold;
@@ -90,35 +73,85 @@ EnvironmentEntry entry(const AliasRow& row) {
     return e;
 }
 
-// Rows first, then texels row by row; returns the mean luminance over the sphere.
-double append_map(std::vector<EnvironmentEntry>& entries, const Environment& map) {
-    std::vector<double> row_weights(map.height);
-    std::vector<EnvironmentEntry> texels;
-    texels.reserve(std::size_t{map.width} * map.height);
-    double solid_angles = 0;
+// Texels of a map with the luminance of each.
+class Texels {
+  public:
+    explicit Texels(const Environment& map) : map_(map) {}
+
+    const float* operator()(uint32_t x, uint32_t y) const {
+        const std::size_t row = std::min(y, map_.height - 1);
+        return &map_.pixels[3 * (row * map_.width + x % map_.width)];
+    }
+    double luminance_at(uint32_t x, uint32_t y) const {
+        const float* p = (*this)(x, y);
+        return luminance({p[0], p[1], p[2]});
+    }
+
+  private:
+    const Environment& map_;
+};
+
+// Height of a row of cells [rows of texels] times the sine in its middle.
+double size_of_row(const Environment& map, uint32_t y) {
+    const double top = std::max(y - 0.5, 0.0);
+    const double bottom = std::min(y + 0.5, static_cast<double>(map.height));
+    return (bottom - top) * std::sin(std::numbers::pi * 0.5 * (top + bottom) / map.height);
+}
+
+// Calls f(x, y, mean over the four corners of `value(x, y)`, size) for every cell.
+template <typename Value, typename Visit>
+void for_each_cell(const Environment& map, const Value& value, const Visit& visit) {
+    for (uint32_t y = 0; y <= map.height; ++y) {
+        const uint32_t above = y > 0 ? y - 1 : 0;
+        const double size = size_of_row(map, y);
+        for (uint32_t x = 0; x < map.width; ++x)
+            visit(
+                x, y,
+                0.25 * (value(x, above) + value(x + 1, above) + value(x, y) + value(x + 1, y)),
+                size);
+    }
+}
+
+// Over the sphere.
+double mean_luminance(const Environment& map) {
+    const Texels texels(map);
     double total = 0;
-    for (uint32_t y = 0; y < map.height; ++y) {
-        const double sine = std::sin(std::numbers::pi * (y + 0.5) / map.height);
-        std::vector<double> weights(map.width);
-        for (uint32_t x = 0; x < map.width; ++x) {
-            weights[x] = texel_weight(map, x, y) * sine;
-            row_weights[y] += weights[x];
-        }
-        const std::vector<AliasRow> table = build_alias_table(weights);
+    double solid_angle = 0;
+    for_each_cell(
+        map, [&](uint32_t x, uint32_t y) { return texels.luminance_at(x, y); },
+        [&](uint32_t, uint32_t, double mean, double size) {
+            total += mean * size;
+            solid_angle += size;
+        });
+    return total / solid_angle;
+}
+
+// Cells are chosen by what of their luminance exceeds `left`.
+std::vector<EnvironmentEntry> entries_of(const Environment& map, double left) {
+    const Texels texels(map);
+    std::vector<std::vector<double>> weights(map.height + 1);
+    std::vector<double> row_weights(map.height + 1);
+    for_each_cell(
+        map,
+        [&](uint32_t x, uint32_t y) { return std::max(texels.luminance_at(x, y) - left, 0.0); },
+        [&](uint32_t, uint32_t y, double mean, double size) {
+            weights[y].push_back(mean * size);
+            row_weights[y] += mean * size;
+        });
+    std::vector<EnvironmentEntry> entries;
+    entries.reserve((std::size_t{map.width} + 1) * (map.height + 1));
+    for (const AliasRow& row : build_alias_table(row_weights)) entries.push_back(entry(row));
+    for (uint32_t y = 0; y <= map.height; ++y) {
+        const std::vector<AliasRow> table = build_alias_table(weights[y]);
         for (uint32_t x = 0; x < map.width; ++x) {
             EnvironmentEntry e = entry(table[x]);
-            const float* texel = &map.pixels[3 * (std::size_t{y} * map.width + x)];
-            e.r = texel[0];
-            e.g = texel[1];
-            e.b = texel[2];
-            texels.push_back(e);
+            e.r = texels(x, y)[0];
+            e.g = texels(x, y)[1];
+            e.b = texels(x, y)[2];
+            entries.push_back(e);
         }
-        total += row_weights[y];
-        solid_angles += sine * map.width;
     }
-    for (const AliasRow& row : build_alias_table(row_weights)) entries.push_back(entry(row));
-    entries.insert(entries.end(), texels.begin(), texels.end());
-    return total / solid_angles;
+    return entries;
 }
 
 // What the emission textures leave of materials' emission, by material.
@@ -144,10 +177,7 @@ class EmissionShares {
 }  // namespace
 
 LightTables build_light_tables(
-    const Scene& scene,
-    const NormalisedScene& geometry,
-    LightChoice choice,
-    bool sample_constant_environment) {
+    const Scene& scene, const NormalisedScene& geometry, LightChoice choice, bool alone) {
     LightTables tables;
     std::vector<double> weights;
     tables.triangle_lights.assign(geometry.triangle_count(), NO_LIGHT);
@@ -183,8 +213,13 @@ LightTables build_light_tables(
     if (scene.environment) {
         const Environment& environment = *scene.environment;
         double mean = luminance(environment.radiance);
-        if (environment.width > 0) mean *= append_map(tables.environment, environment);
-        if (environment.width > 0 || sample_constant_environment) {
+        if (environment.width > 0) {
+            const double of_map = mean_luminance(environment);
+            mean *= of_map;
+            tables.environment_left = alone ? 0.0F : static_cast<float>(of_map);
+            tables.environment = entries_of(environment, tables.environment_left);
+        }
+        if (environment.width > 0 || alone) {
             DeviceLight light{};
             light.kind = LIGHT_ENVIRONMENT;
             tables.lights.push_back(light);

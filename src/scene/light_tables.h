@@ -16,16 +16,14 @@ struct LightTables {
     std::vector<uint32_t> triangle_lights;      // one a triangle: its row of `lights`, or NO_LIGHT
     std::vector<EnvironmentEntry> environment;  // of a map
     float environment_pmf = 0;                  // chance that the environment is chosen
+    float environment_left = 0;                 // RenderParams::environment_left
 };
 
 // `power`: by emitted power. `area`: emissive triangles by area (notes 5); they as a whole, the
-// environment and each punctual light count as one light each. `sample_constant_environment`: a
-// constant environment is found by bsdf sampling as well as by any other way, so a method that
-// joins both leaves it out.
+// environment and each punctual light count as one light each. `alone`: no other way finds the
+// environment. Else bsdf sampling finds what is even of it as well: a constant one is left out, and
+// of a map the light points take only what exceeds its mean [Karlik et al. 2019].
 LightTables build_light_tables(
-    const Scene& scene,
-    const NormalisedScene& geometry,
-    LightChoice choice,
-    bool sample_constant_environment);
+    const Scene& scene, const NormalisedScene& geometry, LightChoice choice, bool alone);
 
 }  // namespace wavepath

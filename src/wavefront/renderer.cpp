@@ -75,6 +75,7 @@ RenderParams scene_params(
     params.split_depth = settings.split_depth;
     params.light_count = static_cast<cl_uint>(tables.lights.size());
     params.environment_pmf = tables.environment_pmf;
+    params.environment_left = tables.environment_left;
     if (scene.environment) {
         params.environment_width = scene.environment->width;
         params.environment_height = scene.environment->height;

@@ -20,9 +20,9 @@ namespace {
 
 using std::numbers::pi;
 
-// Its cells tile the texels of a 20 x 16 map.
+// Its cells tile the quarters of the texels of a 30 x 16 map.
 const Grid grid;
-constexpr cl_uint width = 20;
+constexpr cl_uint width = 30;
 constexpr cl_uint height = 16;
 
 const std::string kernels = R"(
@@ -37,7 +37,7 @@ kernel void directions(
     const uint i = (uint)get_global_id(0);
     const RenderParams params = *settings;
     if (i >= count) return;
-    const Vec3 d = environment_sample(map, &params, bits_of(i));
+    const Vec3 d = environment_sample(map, &params, bits_of(i)).wi;
     grid_count(out, atan2(d.z, d.x) * (0.5f * INV_PI_F) + 0.5f, acos(clamp(d.y, -1.0f, 1.0f)) * INV_PI_F);
 }
 
@@ -49,8 +49,9 @@ kernel void lookups(
     const RenderParams params = *settings;
     if (i >= count) return;
     const Vec3 d = load3(directions + 3 * i, 1, 0);
-    out[4 * i] = environment_pdf_w(map, &params, d);
-    store3(out + 4 * i + 1, 1, 0, environment_eval(map, &params, d));
+    const EnvironmentSample s = environment_at(map, &params, d);
+    out[4 * i] = s.pdf_w;
+    store3(out + 4 * i + 1, 1, 0, s.radiance);
 }
 
 // mean radiance / density over n samples an item, and how many of them have density 0 or no unit direction
@@ -63,10 +64,9 @@ kernel void fluxes(
     float sum = 0.0f;
     float bad = 0.0f;
     for (uint k = 0; k < n; ++k) {
-        const Vec3 d = environment_sample(map, &params, bits_of(i * n + k));
-        const float pdf_w = environment_pdf_w(map, &params, d);
-        bad += pdf_w > 0.0f && fabs(dot3(d, d) - 1.0f) < 2e-6f ? 0.0f : 1.0f;
-        sum += pdf_w > 0.0f ? environment_eval(map, &params, d).x / pdf_w : 0.0f;
+        const EnvironmentSample s = environment_sample(map, &params, bits_of(i * n + k));
+        bad += s.pdf_w > 0.0f && fabs(dot3(s.wi, s.wi) - 1.0f) < 2e-6f ? 0.0f : 1.0f;
+        sum += s.pdf_w > 0.0f ? s.radiance.x / s.pdf_w : 0.0f;
     }
     out[2 * i] = sum / (float)n;
     out[2 * i + 1] = bad;
@@ -84,7 +84,8 @@ struct Map {
     std::vector<RenderParams> params;
 };
 
-Map map_of(const std::vector<float>& greys) {
+// `alone`: light points are all there is to find the map.
+Map map_of(const std::vector<float>& greys, bool alone = true) {
     Map map;
     map.environment.radiance = {1, 2, 3};
     map.environment.width = width;
@@ -93,9 +94,11 @@ Map map_of(const std::vector<float>& greys) {
         map.environment.pixels.insert(map.environment.pixels.end(), 3, grey);
     Scene scene;
     scene.environment = map.environment;
-    map.entries =
-        build_light_tables(scene, NormalisedScene{}, LightChoice::power, true).environment;
+    const LightTables tables =
+        build_light_tables(scene, NormalisedScene{}, LightChoice::power, alone);
+    map.entries = tables.environment;
     RenderParams params{};
+    params.environment_left = tables.environment_left;
     params.environment_width = width;
     params.environment_height = height;
     params.environment_r = 1;
@@ -105,12 +108,12 @@ Map map_of(const std::vector<float>& greys) {
     return map;
 }
 
-Map uneven_map() {
+Map uneven_map(bool alone = true) {
     std::mt19937 random(1);
     std::lognormal_distribution<float> radiance(0, 1.5F);
     std::vector<float> greys(width * height);
     for (float& grey : greys) grey = radiance(random);
-    return map_of(greys);
+    return map_of(greys, alone);
 }
 
 // black but for one texel
@@ -147,12 +150,12 @@ void add_direction(std::vector<cl_float>& directions, const Point2& uv) {
         directions.push_back(static_cast<cl_float>(c));
 }
 
-// alpha: false_alarm over three pairs of grids; power in support/grid.h.
+// alpha: false_alarm over four pairs of grids; power in support/grid.h.
 TEST(Environment, DirectionsFollowTheirDensity) {
     const std::vector<Point2> nodes = grid_nodes(grid);
     std::vector<cl_float> directions;
     for (const Point2& uv : nodes) add_direction(directions, uv);
-    for (const Map& map : {uneven_map(), bright_map(7, 5), bright_map(0, 0)}) {
+    for (const Map& map : {uneven_map(), uneven_map(false), bright_map(7, 5), bright_map(0, 0)}) {
         const auto values = probe().run<cl_float>(
             "lookups", nodes.size(), 4 * nodes.size(), map.entries, map.params, directions);
         std::vector<double> densities(nodes.size());
@@ -164,7 +167,37 @@ TEST(Environment, DirectionsFollowTheirDensity) {
             grid,
             probe().run<cl_uint>(
                 "directions", scaled(1U << 21U), grid.cells() + 1, map.entries, map.params),
-            probabilities, 3);
+            probabilities, 4);
+    }
+}
+
+// What is even of a map is left to the bsdf: no light point has density where the map is darker
+// than its mean all around, and a map of one brightness has none at all.
+TEST(Environment, LightPointsBesideABsdfLeaveItWhatIsEven) {
+    const Map uneven = uneven_map(false);
+    const Map even = map_of(std::vector<float>(width * height, 2.0F), false);
+    EXPECT_NEAR(even.params[0].environment_left, 2, 1e-6);
+    std::vector<cl_float> directions;
+    std::vector<bool> dark;
+    for (int y = 1; y < static_cast<int>(height); ++y) {
+        for (int x = 0; x < static_cast<int>(width); ++x) {
+            add_direction(directions, {(x + 1.0) / width, static_cast<double>(y) / height});
+            const double brightest = std::max(
+                {texel(uneven, x, y - 1), texel(uneven, x + 1, y - 1), texel(uneven, x, y),
+                 texel(uneven, x + 1, y)});
+            dark.push_back(brightest < static_cast<double>(uneven.params[0].environment_left));
+        }
+    }
+    const auto lookups = [&](const Map& map) {
+        return probe().run<cl_float>(
+            "lookups", dark.size(), 4 * dark.size(), map.entries, map.params, directions);
+    };
+    const auto of_uneven = lookups(uneven);
+    const auto of_even = lookups(even);
+    EXPECT_GT(std::ranges::count(dark, true), 10);
+    for (std::size_t k = 0; k < dark.size(); ++k) {
+        EXPECT_EQ(of_uneven[4 * k] > 0, !dark[k]) << k;
+        EXPECT_LT(of_even[4 * k], 1e-3F) << k;
     }
 }
 

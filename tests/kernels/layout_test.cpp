@@ -48,8 +48,8 @@ namespace {
     FIELD(DeviceLight, position_z) FIELD(DeviceLight, direction_z) FIELD(DeviceLight, padding2)   \
     STRUCT(EnvironmentEntry)                                                                      \
     FIELD(EnvironmentEntry, alias_threshold) FIELD(EnvironmentEntry, alias)                       \
-    FIELD(EnvironmentEntry, pmf) FIELD(EnvironmentEntry, padding) FIELD(EnvironmentEntry, r)      \
-    FIELD(EnvironmentEntry, g) FIELD(EnvironmentEntry, b) FIELD(EnvironmentEntry, padding2)       \
+    FIELD(EnvironmentEntry, pmf) FIELD(EnvironmentEntry, r)      \
+    FIELD(EnvironmentEntry, g) FIELD(EnvironmentEntry, b)       \
     STRUCT(RenderParams)                                                                          \
     FIELD(RenderParams, camera_x) FIELD(RenderParams, camera_y) FIELD(RenderParams, camera_z)     \
     FIELD(RenderParams, metres) FIELD(RenderParams, corner_x) FIELD(RenderParams, corner_y)       \
@@ -64,9 +64,9 @@ namespace {
     FIELD(RenderParams, split_depth) FIELD(RenderParams, light_count)                             \
     FIELD(RenderParams, environment_width) FIELD(RenderParams, environment_height)                \
     FIELD(RenderParams, environment_r) FIELD(RenderParams, environment_g)                         \
-    FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)                       \
+    FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)  FIELD(RenderParams, environment_left)                     \
     FIELD(RenderParams, camera_media) FIELD(RenderParams, stops)                                  \
-    FIELD(RenderParams, stop_directions) FIELD(RenderParams, padding)                             \
+    FIELD(RenderParams, stop_directions) \
     FIELD(RenderParams, guide_x) FIELD(RenderParams, guide_y) FIELD(RenderParams, guide_z)        \
     FIELD(RenderParams, guide_radius2)                                                            \
     STRUCT(PlanRow)                                                                               \

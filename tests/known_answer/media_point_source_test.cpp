@@ -92,7 +92,7 @@ TEST(MediaPointSource, HasCasesFluence) {
 TEST(MediaPointSource, HasCasesFluenceAroundASmallSource_long) {
     WAVEPATH_SKIP_UNLESS_LONG();
     expect_fluence(0.5, 0.4, 1, .0618109, 2048);
-    expect_fluence(0.9, 0.5, 2, .0375179, 6144);
+    expect_fluence(0.9, 0.5, 2, .0375179, 8192);
 }
 
 // A point light at a random stop's distance d counts as 1 / d^2, tail index 3/2: the error falls as
