@@ -50,6 +50,11 @@ INLINE EnvironmentCell environment_cell(
     return c;
 }
 
+// Keeps the digits of the smaller value, which a + x (b - a) does not beside a sun.
+INLINE float between(const float a, const float b, const float x) {
+    return fma(1.0f - x, a, x * b);
+}
+
 INLINE float bilinear(
     const float v00,
     const float v10,
@@ -57,8 +62,7 @@ INLINE float bilinear(
     const float v11,
     const float x,
     const float y) {
-    const float top = fma(x, v10 - v00, v00);
-    return fma(y, fma(x, v11 - v01, v01) - top, top);
+    return between(between(v00, v10, x), between(v01, v11, x), y);
 }
 
 // Towards the point (fx, fy) of a cell, chosen with chance pmf: radiance and sampled luminance are
@@ -119,8 +123,11 @@ environment_at(global const EnvironmentEntry* map, const RenderParams* params, c
 
 // x in [0, 1) of density in proportion to a + (b - a) x.
 INLINE float sample_linear(const float a, const float b, const float u) {
-    const float root = a + sqrt(fma(u, b * b, (1.0f - u) * (a * a)));
-    return root > 0.0f ? min(u * (a + b) / root, 0x1.fffffep-1f) : u;
+    const float sum = a + b;
+    const float low = a / sum;
+    const float high = b / sum;
+    const float x = u / (low + sqrt(fma(u, high * high, (1.0f - u) * (low * low))));
+    return (sum > 0.0f) & (x < 1.0f) ? x : u;
 }
 
 INLINE EnvironmentSample environment_sample(
@@ -152,8 +159,7 @@ INLINE EnvironmentSample environment_sample(
     const float lower = row == (int)height ? 0.5f * v : within;
     const float fy = row == 0 ? 0.5f + 0.5f * v : lower;
     const float fx = sample_linear(
-        fma(fy, c.sampled[2] - c.sampled[0], c.sampled[0]),
-        fma(fy, c.sampled[3] - c.sampled[1], c.sampled[1]), u);
+        between(c.sampled[0], c.sampled[2], fy), between(c.sampled[1], c.sampled[3], fy), u);
 
     const SineCosine phi = sincos_2pi(((float)column + 0.5f + fx) / (float)width - 0.5f);
     const SineCosine theta = sincos_2pi(0.5f * ((float)row - 0.5f + fy) / (float)height);

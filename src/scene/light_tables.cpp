@@ -73,7 +73,7 @@ EnvironmentEntry entry(const AliasRow& row) {
     return e;
 }
 
-// Texels of a map with the luminance of each.
+// Texels of a map: wrapped to the right, the last row repeated below.
 class Texels {
   public:
     explicit Texels(const Environment& map) : map_(map) {}
@@ -98,7 +98,8 @@ double size_of_row(const Environment& map, uint32_t y) {
     return (bottom - top) * std::sin(std::numbers::pi * 0.5 * (top + bottom) / map.height);
 }
 
-// Calls f(x, y, mean over the four corners of `value(x, y)`, size) for every cell.
+// Calls visit(x, y, mean over the four corners of value(x, y), size_of_row(y)) for every cell, row
+// by row.
 template <typename Value, typename Visit>
 void for_each_cell(const Environment& map, const Value& value, const Visit& visit) {
     for (uint32_t y = 0; y <= map.height; ++y) {
