@@ -127,7 +127,7 @@ INLINE float sample_linear(const float a, const float b, const float u) {
     const float low = a / sum;
     const float high = b / sum;
     const float x = u / (low + sqrt(fma(u, high * high, (1.0f - u) * (low * low))));
-    return (sum > 0.0f) & (x < 1.0f) ? x : u;
+    return ((sum > 0.0f) & (x < 1.0f)) ? x : u;
 }
 
 INLINE EnvironmentSample environment_sample(
