@@ -106,6 +106,21 @@ std::vector<Body> bodies_with_media(const Scene& scene, const NormalisedScene& g
     return found;
 }
 
+// Positions are known to 6e-8 of the scene's extent: shorter free paths would lead nowhere.
+void check_extinction(const Material& material, double metres) {
+    constexpr double most = 1e7;  // free paths across the scene
+    const Medium& medium = material.medium;
+    if (!medium.scatters()) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double extinction = double{medium.sigma_a[c]} + double{medium.sigma_s[c]};
+        if (extinction * metres <= most) continue;
+        throw Error(
+            "material \"{}\": an extinction of {:.3g} per metre makes {:.3g} free paths across the "
+            "scene, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a",
+            material.name, extinction, extinction * metres, most);
+    }
+}
+
 DeviceMedium device_medium(const Material& material, double metres) {
     const Medium& medium = material.medium;
     const auto scaled = [&](float per_metre) { return static_cast<float>(per_metre * metres); };
@@ -162,6 +177,7 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
             if (tables.rows[m] > 0) continue;
             const Material& material = scene.materials[m];
             const Medium& medium = material.medium;
+            check_extinction(material, geometry.extent.metres);
             tables.media.push_back(device_medium(material, geometry.extent.metres));
             tables.refract = tables.refract || material.boundary == Boundary::dielectric;
             tables.refract_roughly = tables.refract_roughly || refracts_roughly(material);

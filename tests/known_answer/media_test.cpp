@@ -191,6 +191,17 @@ TEST(MediaBoundary, InnermostMediumWins) {
         radiance(orthographic({0, 0, 0.75}, {0, 0, 1}, 0.1)) / std::exp(-0.25 * 2 - 0.5), 1, 1e-5);
 }
 
+TEST(MediaBoundary, AroundWhatIsDenserThanFloatsTellApartIsRefused) {
+    Scene scene = scene_named("ball");
+    scene.environment = constant_environment(1);
+    add_icosphere(scene, boundary_of(medium_of(1e8, 0.9)), {0, 0, 0}, 1, 1);
+    const RenderSettings settings =
+        square_settings("mis", perspective({0, 0, 3}, {0, 0, 0}, 1), 2, 1);
+    EXPECT_THROW(render(test_device(), scene, settings), Error);
+    scene.materials[0].medium = medium_of(1e8, 0);  // absorbs at once
+    EXPECT_NO_THROW(render(test_device(), scene, settings));
+}
+
 TEST(MediaBoundary, ThatAnOrthographicCameraCutsIsRefused) {
     Scene scene = scene_named("cut");
     scene.environment = constant_environment(1);
