@@ -26,7 +26,8 @@ INLINE uint leave_medium(const uint stack, const uint medium) {
     return above == 0xFFFFFFFFu ? stack : without;
 }
 
-// The stack behind a boundary that a ray of this direction passes. A fifth medium does not fit.
+// The stack behind a boundary that a ray of this direction passes. A fifth medium does not fit:
+// weight_of_crossing.
 INLINE uint cross_boundary(
     const uint stack, const uint medium, global const float* triangle, const Vec3 direction) {
     const int enters = dot3(triangle_cross(triangle), direction) < 0.0f;
@@ -53,8 +54,10 @@ INLINE float refractive_index(global const DeviceMedium* media, const uint stack
     return innermost > 0 ? media[(int)max(innermost, 1u) - 1].ior : 1.0f;
 }
 
-INLINE int stack_is_full(const uint stack) {
-    return stack >> 24 != 0u;
+// 1; NaN where more media lie around one another than the stack holds, to be found and counted.
+INLINE float weight_of_crossing(const uint stack, const uint crossed, const uint medium) {
+    const int overflows = (stack >> 24 != 0u) & (crossed == enter_medium(stack, medium));
+    return overflows ? NAN : 1.0f;
 }
 
 // A ray that starts at its own origin, not behind a boundary.

@@ -70,9 +70,11 @@ kernel void connect_through_media(
                 triangles + (size_t)TRIANGLE_FLOATS * hit.primitive, hit.u, hit.v);
             value = mul3(value, vec3(t.r, t.g, t.b));
         }
-        stack = cross_boundary(
-            stack, materials[x.material].medium, triangles + TRIANGLE_FLOATS * hit.primitive,
-            direction);
+        const uint medium = materials[x.material].medium;
+        const uint crossed =
+            cross_boundary(stack, medium, triangles + TRIANGLE_FLOATS * hit.primitive, direction);
+        value = scale3(value, weight_of_crossing(stack, crossed, medium));
+        stack = crossed;
         start = ray_start(hit.t, hit.primitive);
     }
     global float* radiance = PLANE(radiances, RADIANCE_R);

@@ -28,7 +28,8 @@ INLINE void store_hit(global float* hits, const size_t stride, const size_t slot
 INLINE RayStart load_start(global const float* path_media, const size_t stride, const size_t slot) {
     if (!HAS_MEDIA) return at_origin();
     return ray_start(
-        PLANE(path_media, MEDIUM_T)[slot], as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]));
+        max(PLANE(path_media, MEDIUM_T)[slot], 0.0f),
+        as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]));
 }
 
 // Whether the ray passes the boundary of this medium and no more happens to it; 0: no.

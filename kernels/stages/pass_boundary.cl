@@ -28,12 +28,10 @@ __attribute__((noinline)) void pass(
     const uint crossed = cross_boundary(
         stack, material->medium, triangles + TRIANGLE_FLOATS * primitive,
         load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));
-    // more media around one another than the stack holds: a NaN, to be found and counted
-    const int too_deep = stack_is_full(stack) & (crossed == enter_medium(stack, material->medium));
-    const float fits = too_deep ? NAN : 1.0f;
+    const float weight = weight_of_crossing(stack, crossed, material->medium);
     const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
     const Vec3 throughput =
-        scale3(mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), base), fits);
+        scale3(mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), base), weight);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
     go_on_behind(path_media, stride, slot, crossed, PLANE(hits, HIT_T)[slot], primitive);
     PLANE(hits, HIT_PRIMITIVE)

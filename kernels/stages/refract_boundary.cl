@@ -40,7 +40,6 @@ kernel void refract_boundary(
     const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
     const uint crossed =
         cross_boundary(stack, material->medium, triangles + TRIANGLE_FLOATS * primitive, direction);
-    const int too_deep = stack_is_full(stack) & (crossed == enter_medium(stack, material->medium));
 
     const uint seed = PLANE(ids, ID_SEED)[slot];
     const uint index = PLANE(ids, ID_INDEX)[slot];
@@ -56,8 +55,7 @@ kernel void refract_boundary(
 
     const Vec3 one = vec3(1.0f, 1.0f, 1.0f);
     const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
-    // more media around one another than the stack holds: a NaN, to be found and counted
-    const Vec3 passed = scale3(base, too_deep ? NAN : 1.0f);
+    const Vec3 passed = scale3(base, weight_of_crossing(stack, crossed, material->medium));
     const Vec3 throughput = mul3(
         load3(PLANE(throughputs, THROUGHPUT_R), stride, slot),
         scale3(select3(s.reflects, one, passed), s.weight));
@@ -77,4 +75,7 @@ kernel void refract_boundary(
     PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
     if (HAS_GUIDE) PLANE(hits, HIT_WORTH)[slot] = 1.0f;
     start_at_origin(path_media, stride, slot);
+    // what `leave` skipped lies in the medium too, and matters to a dense one; a grazing ray may
+    // have left its curved surface before that
+    PLANE(path_media, MEDIUM_T)[slot] = -RAY_OFFSET / max(dot3(side, wi), 0x1p-8f);
 }

@@ -259,6 +259,7 @@ std::vector<double> numbers(
     const std::vector<double>& missing) {
     if (!object.Has(key)) return missing;
     const tinygltf::Value& array = object.Get(key);
+    if (!array.IsArray()) file.fail(where, "{} is not an array of numbers; repair it", key);
     std::vector<double> values;
     for (std::size_t i = 0; i < array.ArrayLen(); ++i) {
         const tinygltf::Value& value = array.Get(static_cast<int>(i));

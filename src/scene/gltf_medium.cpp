@@ -168,13 +168,15 @@ class MediumReader {
 void read_medium(const GltfFile& file, int index, Material& material, Ignored& ignored) {
     const MediumReader reader(file, index);
     const double transmission = reader.transmission();
-    const bool encloses = transmission > 0 && reader.thickness() > 0;
-    if (reader.has_extras() && !encloses)
+    const bool is_volume = transmission > 0 && reader.thickness() > 0;
+    const bool lets_rays_in = transmission >= 1 && material.metallic == 0 && material.ior >= 1;
+    if (reader.has_extras() && !(is_volume && lets_rays_in && !material.unlit))
         reader.fail(
-            "extras.{} needs KHR_materials_transmission with transmissionFactor above 0 and "
-            "KHR_materials_volume with thicknessFactor above 0; add them",
+            "extras.{} needs KHR_materials_transmission with transmissionFactor 1, "
+            "KHR_materials_volume with thicknessFactor above 0, metallicFactor 0, an ior of 1 or "
+            "more, and no KHR_materials_unlit; repair it",
             extras_key);
-    if (!encloses || material.unlit) return;
+    if (!is_volume || material.unlit) return;
     constexpr const char* instead = "rendered as thin walls";
     if (transmission < 1 || material.metallic > 0)
         ignored.add("volumes that transmit in part", instead);
@@ -191,6 +193,9 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
             ignored.add("roughness textures of volumes", "rendered with roughnessFactor alone");
         if (material.has(TEXTURE_TRANSMISSION))
             ignored.add("transmission textures of volumes", "rendered as if they were white");
+        if (material.alpha_mode != AlphaMode::opaque)
+            ignored.add("alpha modes of volumes", "rendered as if they were OPAQUE");
+        material.alpha_mode = AlphaMode::opaque;  // light could enter and not leave
         if (reader.has_scatter_textures())
             ignored.add("textures of what scatters in volumes", "rendered by the factors alone");
         material.textures[TEXTURE_METALLIC_ROUGHNESS] = {};

@@ -36,6 +36,17 @@ struct Body {
     std::vector<std::array<Point, 3>> triangles;
     std::set<uint32_t> boundaries;  // materials of the triangles that let light in
     std::string name;
+    Point low{2, 2, 2};  // of its bounding box; the scene is 1 wide
+    Point high{-2, -2, -2};
+
+    void add(const std::array<Point, 3>& triangle) {
+        triangles.push_back(triangle);
+        for (const Point& p : triangle)
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], p[k]);
+                high[k] = std::max(high[k], p[k]);
+            }
+    }
 
     double volume() const {
         double sum = 0;
@@ -47,6 +58,8 @@ struct Body {
     // Around a point: 1 inside, 0 outside; in between where the mesh is open [Van Oosterom &
     // Strackee 1983; Jacobson 2013].
     double winding(const Vec3d& point) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (point[k] < low[k] || point[k] > high[k]) return 0;
         double sum = 0;
         for (const auto& [pa, pb, pc] : triangles) {
             const Vec3d a = minus(pa, point);
@@ -94,7 +107,7 @@ std::vector<Body> bodies_with_media(const Scene& scene, const NormalisedScene& g
                 body.boundaries.insert(primitive.material);
             for (uint32_t t = first; t < end; ++t) {
                 const float* p = &geometry.positions[std::size_t{9} * t];
-                body.triangles.push_back(
+                body.add(
                     {Point{p[0], p[1], p[2]}, Point{p[3], p[4], p[5]}, Point{p[6], p[7], p[8]}});
             }
         }
@@ -106,19 +119,57 @@ std::vector<Body> bodies_with_media(const Scene& scene, const NormalisedScene& g
     return found;
 }
 
-// Positions are known to 6e-8 of the scene's extent: shorter free paths would lead nowhere.
-void check_extinction(const Material& material, double metres) {
-    constexpr double most = 1e7;  // free paths across the scene
+constexpr int stack_height = 4;  // of MEDIUM_STACK
+
+// Positions are known to 6e-8 of the scene's extent. Returns the warning that a medium is so dense
+// that this is seen (docs/stability.md), or nothing. Throws Error where it is all that is seen.
+std::string warning_of_extinction(const Material& material, double metres) {
+    constexpr double seen = 1e5;  // free paths across the scene
+    constexpr double most = 1e6;
     const Medium& medium = material.medium;
-    if (!medium.scatters()) return;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double extinction = double{medium.sigma_a[c]} + double{medium.sigma_s[c]};
-        if (extinction * metres <= most) continue;
+    if (!medium.scatters()) return {};
+    double extinction = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+        extinction = std::max(extinction, double{medium.sigma_a[c]} + double{medium.sigma_s[c]});
+    const double free_paths = extinction * metres;
+    if (free_paths <= seen) return {};
+    const std::string found = fmt::format(
+        "material \"{}\": an extinction of {:.3g} per metre makes {:.3g} free paths across the "
+        "scene",
+        material.name, extinction, free_paths);
+    if (free_paths > most)
         throw Error(
-            "material \"{}\": an extinction of {:.3g} per metre makes {:.3g} free paths across the "
-            "scene, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a",
-            material.name, extinction, extinction * metres, most);
-    }
+            "{}, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a", found,
+            most);
+    return found + ", which single precision renders up to 5 % too dark";
+}
+
+Point vertex_of(const Body& body) {
+    return body.triangles.front().front();
+}
+
+Vec3d as_vector(const Point& p) {
+    return {p[0], p[1], p[2]};
+}
+
+// A body whose faces look inwards ends the medium of one around it: a hollow in glass. Without one,
+// the medium that it begins outside would fill the space without bound.
+bool is_hollow(const Body& body, const std::vector<Body>& bodies) {
+    return std::ranges::any_of(bodies, [&](const Body& other) {
+        return &other != &body && other.boundaries == body.boundaries &&
+               other.winding(as_vector(vertex_of(body))) > 0.25;  // or touches its surface
+    });
+}
+
+// Into a body that lies inside too many others light could not be followed.
+void check_nesting(const Scene& scene, const Body& body, const std::vector<Body>& bodies) {
+    double around = 0;  // hollows count -1
+    for (const Body& other : bodies)
+        if (&other != &body) around += std::round(other.winding(as_vector(vertex_of(body))));
+    if (around < double{stack_height}) return;
+    throw Error(
+        "{}: {} lies inside {} other media; at most {} may lie around one another", scene.name,
+        body.name, around, stack_height);
 }
 
 DeviceMedium device_medium(const Material& material, double metres) {
@@ -177,7 +228,9 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
             if (tables.rows[m] > 0) continue;
             const Material& material = scene.materials[m];
             const Medium& medium = material.medium;
-            check_extinction(material, geometry.extent.metres);
+            if (auto dense = warning_of_extinction(material, geometry.extent.metres);
+                !dense.empty())
+                tables.warnings.push_back(std::move(dense));
             tables.media.push_back(device_medium(material, geometry.extent.metres));
             tables.refract = tables.refract || material.boundary == Boundary::dielectric;
             tables.refract_roughly = tables.refract_roughly || refracts_roughly(material);
@@ -190,10 +243,12 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
                 "{}: encloses a medium but is not closed; rays that leave by a hole leave the "
                 "medium only when they leave the scene",
                 body.name));
-        else if (body.volume() < 0)
-            tables.warnings.push_back(fmt::format(
-                "{}: encloses a medium but is inside out; its medium is missing: turn its faces",
-                body.name));
+        else if (body.volume() < 0 && !is_hollow(body, bodies))
+            throw Error(
+                "{}: {} is inside out, so that the medium it bounds would fill the space around it "
+                "without end; turn its faces",
+                scene.name, body.name);
+        if (std::ssize(bodies) > stack_height) check_nesting(scene, body, bodies);
     }
     constexpr std::size_t most_media = 255;  // eight bits of MEDIUM_STACK
     if (tables.media.size() > most_media)
@@ -233,6 +288,7 @@ uint32_t media_at_camera(
     const Vec3d camera = orthographic ? Vec3d{params.corner_x, params.corner_y, params.corner_z}
                                       : Vec3d{params.camera_x, params.camera_y, params.camera_z};
     std::vector<std::pair<double, uint32_t>> around;  // volume, row + 1
+    std::vector<uint32_t> hollow;                     // row + 1
     for (const Body& body : bodies_with_media(scene, geometry)) {
         const auto cuts = [&](const auto& triangle) { return cuts_film(triangle, params); };
         if (orthographic && std::ranges::any_of(body.triangles, cuts))
@@ -240,14 +296,22 @@ uint32_t media_at_camera(
                 "{}: the plane of the orthographic camera cuts through {}, which encloses a "
                 "medium; move the camera back or forth",
                 scene.name, body.name);
-        if (body.winding(camera) < 0.5) continue;
-        for (const uint32_t m : body.boundaries) around.emplace_back(body.volume(), tables.rows[m]);
+        const double winding = body.winding(camera);
+        for (const uint32_t m : body.boundaries) {
+            if (winding > 0.5) around.emplace_back(body.volume(), tables.rows[m]);
+            if (winding < -0.5) hollow.push_back(tables.rows[m]);
+        }
     }
-    if (around.size() > 4)
-        throw Error(
-            "{}: the camera is inside {} media; at most 4 may lie around one another", scene.name,
-            around.size());
     std::ranges::sort(around, std::greater<>());
+    for (const uint32_t row : hollow) {
+        const auto innermost = std::find_if(
+            around.rbegin(), around.rend(), [&](const auto& a) { return a.second == row; });
+        if (innermost != around.rend()) around.erase(std::next(innermost).base());
+    }
+    if (std::ssize(around) > stack_height)
+        throw Error(
+            "{}: the camera is inside {} media; at most {} may lie around one another", scene.name,
+            around.size(), stack_height);
     uint32_t stack = 0;
     for (const auto& [volume, row] : around) stack = stack << 8U | row;
     return stack;

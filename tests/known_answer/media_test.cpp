@@ -2,6 +2,7 @@
 // that must not be there.
 #include "support/media.h"
 #include "scene/transform.h"
+#include "support/images.h"
 #include "support/rendering.h"
 
 #include <cmath>
@@ -191,15 +192,163 @@ TEST(MediaBoundary, InnermostMediumWins) {
         radiance(orthographic({0, 0, 0.75}, {0, 0, 1}, 0.1)) / std::exp(-0.25 * 2 - 0.5), 1, 1e-5);
 }
 
+// Two sheets of clear boundaries between a floor and a point light: each of the four crossings
+// tints what arrives, by the factor and by its texture.
+TEST(MediaBoundary, TintsConnections) {
+    Material tinted = boundary_of({});
+    tinted.base_color = {0.5F, 0.8F, 1};
+    Scene scene = scene_named("filters");
+    add_square(scene, lambert(grey(1)), {0, 0, 0}, {0, 0, 1}, 4);
+    add_box(scene, tinted, {-1, -1, 0.3}, {1, 1, 0.4}, Facing::outward);
+    Primitive& textured = add_box(scene, tinted, {-1, -1, 0.5}, {1, 1, 0.6}, Facing::outward);
+    textured.uvs[0].assign(textured.positions.size() / 3 * 2, 0.5F);
+    add_texture(
+        scene, scene.materials.back(), TEXTURE_BASE_COLOR, image_of(1, 1, {255, 188, 128, 255}));
+    scene.lights.push_back({});
+    scene.lights.back().position = {0, 0, 1};
+    const RenderResult result = render_scene(
+        scene, square_settings("direct", close_up({0, 0, 0}, {0, 0, 1}, 0.1, 2e-3), 8, 4));
+    const double truths[] = {
+        std::pow(0.5, 4), std::pow(0.8, 4) * std::pow(188 / 255., 2), std::pow(128 / 255., 2)};
+    const char* channels[] = {"R", "G", "B"};
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(shared_mean(result, channels[c]).mean * std::numbers::pi / truths[c], 1, 2e-5)
+            << channels[c];
+}
+
+// Fog that ends a little below a lamp, however little: a shadow ray that is pushed off the boundary
+// would meet the lamp, and fog come out a tenth too dark there.
+TEST(MediaBoundary, OfFogMayLieCloseToItsLamp) {
+    Medium fog = medium_of(0.5, 0.9);
+    const auto lit = [&](double gap) {
+        Scene scene = scene_named("fog below a lamp");
+        add_square(scene, lambert(grey(0.5F)), {0, 0, 0}, {0, 0, 1}, 4);
+        add_square(scene, lambert(grey(0), grey(1)), {0, 0, 1}, {0, 0, -1}, 0.5);
+        add_box(scene, boundary_of(fog), {-1, -1, -0.1}, {1, 1, 1 - gap}, Facing::outward);
+        return image_mean(render_for(
+            {.bias = 0.01 / 1.5, .tests = 3}, scene,
+            square_settings("mis", perspective({0, -0.9, 0.5}, {0, 0, 0.45}, 0.9), 32, 64)));
+    };
+    const Estimate apart = lit(5e-3);
+    for (const double gap : {1e-3, 1e-4, 1e-6})
+        EXPECT_TRUE(agree(lit(gap), apart, {.bias = 0.01, .tests = 3})) << gap;
+}
+
+std::string error_of(const Scene& scene, const Camera& camera) {
+    try {
+        render(test_device(), scene, square_settings("mis", camera, 2, 1));
+        return "";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
 TEST(MediaBoundary, AroundWhatIsDenserThanFloatsTellApartIsRefused) {
     Scene scene = scene_named("ball");
     scene.environment = constant_environment(1);
     add_icosphere(scene, boundary_of(medium_of(1e8, 0.9)), {0, 0, 0}, 1, 1);
-    const RenderSettings settings =
-        square_settings("mis", perspective({0, 0, 3}, {0, 0, 0}, 1), 2, 1);
-    EXPECT_THROW(render(test_device(), scene, settings), Error);
-    scene.materials[0].medium = medium_of(1e8, 0);  // absorbs at once
-    EXPECT_NO_THROW(render(test_device(), scene, settings));
+    scene.materials[0].name = "soot";
+    const Camera camera = perspective({0, 0, 3}, {0, 0, 0}, 1);
+    EXPECT_EQ(
+        error_of(scene, camera),
+        "material \"soot\": an extinction of 1e+08 per metre makes 2.09e+08 free paths across the "
+        "scene, more than single precision tells apart (1e+06); lower sigma_s and sigma_a");
+    const auto warnings = [&](double sigma_t, double albedo) {
+        scene.materials[0].medium = medium_of(sigma_t, albedo);
+        return render_scene(scene, square_settings("mis", camera, 2, 1)).warnings;
+    };
+    const std::vector<std::string> warning = {
+        "material \"soot\": an extinction of 1e+05 per metre makes 2.09e+05 free paths across the "
+        "scene, which single precision renders up to 5 % too dark"};
+    EXPECT_EQ(warnings(1e5, 0.5), warning);
+    EXPECT_TRUE(warnings(1e4, 0.5).empty());
+    EXPECT_TRUE(warnings(1e8, 0).empty());  // absorbs at once
+}
+
+// A box without its front: one warning, and a ray is in the medium where it met an outer side and
+// no inner one since.
+TEST(MediaBoundary, WithAHoleIsWarnedOfOnce) {
+    Scene scene = scene_named("open");
+    add_square(scene, lambert(grey(0), grey(1)), {0, 0, -2}, {0, 0, 1}, 8);
+    add_square(scene, lambert(grey(0), grey(1)), {0, 0, 3}, {0, 0, -1}, 8);
+    Primitive& box =
+        add_box(scene, boundary_of(medium_of(0.5, 0)), {-1, -1, -1}, {1, 1, 1}, Facing::outward);
+    std::erase_if(box.indices, [&, k = 0](uint32_t) mutable {  // the triangles with z = 1 alone
+        const std::size_t first = static_cast<std::size_t>(k++) / 3 * 3;
+        double sum = 0;
+        for (std::size_t j = 0; j < 3; ++j) sum += box.positions[3 * box.indices[first + j] + 2];
+        return sum > 2.5;
+    });
+    box.name = "box";
+    const auto seen = [&](const Vec3d& eye, const Vec3d& target) {
+        const RenderResult result =
+            render_scene(scene, square_settings("mis", orthographic(eye, target, 0.1), 8, 4));
+        EXPECT_EQ(
+            result.warnings, std::vector<std::string>{"box: encloses a medium but is not closed; "
+                                                      "rays that leave by a hole leave the medium "
+                                                      "only when they leave the scene"});
+        return shared_mean(result).mean;
+    };
+    EXPECT_NEAR(seen({0.1, 0.2, 2}, {0.1, 0.2, 0}), 1, 1e-6);
+    EXPECT_NEAR(seen({0.1, 0.2, -1.5}, {0.1, 0.2, 0}) / std::exp(-0.5 * 4), 1, 1e-5);
+}
+
+// A body whose faces look inwards would fill the space around it; inside another of its material it
+// is a hollow, for the camera too.
+TEST(MediaBoundary, InsideOutIsAHollowOrRefused) {
+    Scene scene = scene_named("shell");
+    scene.environment = constant_environment(1);
+    add_box(scene, boundary_of(medium_of(0.7, 0)), {-1, -1, -1}, {1, 1, 1}, Facing::inward);
+    scene.primitives[0].name = "inner";
+    const Camera above = orthographic({0.1, 0.2, 3}, {0.1, 0.2, 0}, 0.1);
+    EXPECT_EQ(
+        error_of(scene, above),
+        "shell: inner is inside out, so that the medium it bounds would fill the space around it "
+        "without end; turn its faces");
+    add_box(scene, {}, {-2, -2, -2}, {2, 2, 2}, Facing::outward);
+    scene.primitives[1].material = 0;
+    const auto seen = [&](const Camera& camera) {
+        const RenderResult result = render_scene(scene, square_settings("mis", camera, 8, 4));
+        EXPECT_TRUE(result.warnings.empty());
+        return shared_mean(result).mean;
+    };
+    EXPECT_NEAR(seen(above) / std::exp(-2 * 0.7), 1, 1e-5);
+    EXPECT_NEAR(seen(orthographic({0.1, 0.2, 0}, {0.1, 0.2, 3}, 0.1)) / std::exp(-0.7), 1, 1e-5);
+}
+
+// Four media fit. A fifth is refused where a body lies in four others, and is a NaN where bodies
+// only cross: for paths, and for connections.
+TEST(MediaBoundary, OfAFifthMediumIsRefusedOrFound) {
+    const auto box_in = [](Scene& scene, double side, double height) {
+        add_box(
+            scene, boundary_of(medium_of(0.1, 0)), {-side, -side, -height}, {side, side, height},
+            Facing::outward);
+    };
+    Scene nested = scene_named("nested");
+    nested.environment = constant_environment(1);
+    for (int k = 0; k < 5; ++k) box_in(nested, 1 - 0.1 * k, 1 - 0.1 * k);
+    nested.primitives.back().name = "innermost";
+    EXPECT_EQ(
+        error_of(nested, perspective({0, 0, 4}, {0, 0, 0}, 1)),
+        "nested: innermost lies inside 4 other media; at most 4 may lie around one another");
+
+    for (const int bodies : {4, 5}) {
+        SCOPED_TRACE(bodies);
+        Scene crossing = scene_named("crossing");
+        for (int k = 5 - bodies; k < 5; ++k) box_in(crossing, 1 - 0.05 * k, 1 + 0.05 * k);
+        // its own light falls from the middle, in all media, on a square in the upper four
+        add_square(crossing, lambert(grey(0.5F)), {0, 0, 1.04}, {0, 0, -1}, 0.2);
+        add_square(crossing, lambert(grey(0), grey(1)), {0, 0, 0}, {0, 0, 1}, 0.2);
+        const RenderSettings settings =
+            square_settings("direct", orthographic({0, 0, 1.01}, {0, 0, 1.04}, 0.1), 8, 4);
+        const RenderResult result = render(test_device(), crossing, settings);
+        EXPECT_EQ(result.film.nonfinite.samples, bodies == 5 ? 8 * 8 * 4U : 0U);
+        // towards the fifth, by path
+        const RenderResult path = render(
+            test_device(), crossing,
+            square_settings("path", orthographic({0, 0, 2}, {0.01, 0.5, 0}, 0.1), 8, 4));
+        EXPECT_EQ(path.film.nonfinite.samples > 0, bodies == 5);
+    }
 }
 
 TEST(MediaBoundary, ThatAnOrthographicCameraCutsIsRefused) {

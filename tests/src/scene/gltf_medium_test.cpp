@@ -166,16 +166,38 @@ TEST(GltfMedium, SaysWhichTexturesItDoesNotRead) {
         HasSubstr("textures of what scatters in volumes (1)"));
 }
 
+TEST(GltfMedium, IsBoundedWithoutAlpha) {
+    for (const char* mode : {"MASK", "BLEND"}) {
+        Json material = boundary();
+        material["alphaMode"] = mode;
+        const Scene scene = load(file_with(material));
+        EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::opaque);
+        EXPECT_THAT(scene.ignored, ElementsAre(HasSubstr("alpha modes of volumes (1)")));
+    }
+}
+
 TEST(GltfMedium, RefusesWhatMeansNothing) {
     const auto refusal = [](const Json& material) { return load_error(file_with(material)); };
     EXPECT_THAT(refusal(with_extras({{"sigma_a", {0, -1, 0}}})), HasSubstr("0 or more"));
     EXPECT_THAT(refusal(with_extras({{"sigma_s", {1, 1}}})), HasSubstr("2 numbers instead of 3"));
+    EXPECT_THAT(refusal(with_extras({{"sigma_s", "red"}})), HasSubstr("sigma_s is not an array"));
     EXPECT_THAT(refusal(with_extras({{"g", 1}})), HasSubstr("g is 1"));
     EXPECT_THAT(refusal(with_extras({{"sigma", {1, 1, 1}}})), HasSubstr("no member \"sigma\""));
     EXPECT_THAT(refusal(with_extras(1)), HasSubstr("not an object"));
     Json material = with_extras({{"sigma_a", {1, 1, 1}}});
     material["extensions"].erase("KHR_materials_volume");
     EXPECT_THAT(refusal(material), HasSubstr("needs KHR_materials_transmission"));
+    const std::pair<const char*, Json> conflicts[] = {
+        {"/extensions/KHR_materials_transmission/transmissionFactor", 0.5},
+        {"/extensions/KHR_materials_ior/ior", 0},
+        {"/extensions/KHR_materials_unlit", Json::object()},
+        {"/pbrMetallicRoughness/metallicFactor", 1},
+    };
+    for (const auto& [path, value] : conflicts) {
+        material = with_extras({{"sigma_a", {1, 1, 1}}});
+        material[Json::json_pointer(path)] = value;
+        EXPECT_THAT(refusal(material), HasSubstr("needs KHR_materials_transmission")) << path;
+    }
     material = boundary();
     material["emissiveFactor"] = {1, 1, 1};
     EXPECT_THAT(refusal(material), HasSubstr("ior 1 and emits"));
