@@ -16,7 +16,7 @@ build_packages=(
     cmake ninja-build g++
     ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
     libcli11-dev libdraco-dev libembree-dev libfmt-dev libmeshoptimizer-dev libopenexr-dev libspdlog-dev libstb-dev
-    libtinygltf-dev libwebp-dev nlohmann-json3-dev pkgconf
+    libtinygltf-dev libwebp-dev nlohmann-json3-dev pkgconf zlib1g-dev
 )
 test_packages=(libbenchmark-dev libgmock-dev libgtest-dev)
 # The tests that use one of these are skipped, with the reason, where the distribution does not have it.

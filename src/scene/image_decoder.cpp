@@ -3,6 +3,7 @@
 #include "error.h"
 
 #include <webp/decode.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
@@ -27,6 +28,32 @@ constexpr const char* unknown_kind =
 bool is_webp(Bytes bytes) {
     return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 &&
            std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+}
+
+uint32_t big_endian(Bytes bytes) {
+    return uint32_t{bytes[0]} << 24U | uint32_t{bytes[1]} << 16U | uint32_t{bytes[2]} << 8U |
+           uint32_t{bytes[3]};
+}
+
+// stb_image looks at no checksum, and paints what it can of damaged files. Chunks that do not
+// matter to the picture may be damaged [PNG 3, sections 5.3 to 5.5].
+bool has_damaged_chunks(Bytes bytes) {
+    constexpr unsigned char signature[] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
+    constexpr std::size_t frame = 12;  // length, type, checksum
+    if (bytes.size() < sizeof signature ||
+        std::memcmp(bytes.data(), signature, sizeof signature) != 0)
+        return false;
+    bytes = bytes.subspan(sizeof signature);
+    while (bytes.size() >= frame && big_endian(bytes) <= bytes.size() - frame) {
+        const std::size_t length = big_endian(bytes);
+        const Bytes checked = bytes.subspan(4, 4 + length);
+        const bool matters = checked[0] < 'a' || std::memcmp(checked.data(), "tRNS", 4) == 0;
+        if (matters &&
+            crc32_z(0, checked.data(), checked.size()) != big_endian(bytes.subspan(8 + length)))
+            return true;
+        bytes = bytes.subspan(frame + length);
+    }
+    return false;  // what is cut off the decoder finds
 }
 
 // stb_image takes the end of a file for zeros, and paints what is cut off grey: this source
@@ -101,6 +128,7 @@ ImageSize read_image_size(Bytes bytes) {
 
 TextureImage decode_image(Bytes bytes) {
     if (is_webp(bytes)) return decode_webp(bytes);
+    if (has_damaged_chunks(bytes)) throw Error("is damaged (a checksum is wrong); export it again");
     int width = 0;
     int height = 0;
     int channels = 0;

@@ -183,6 +183,11 @@ TEST(GltfTexture, SaysWhatIsWrongWithAnImage) {
     const std::string png = png_file(8, 8, std::vector<uint8_t>(256, 77));
     EXPECT_THAT(
         error(data_uri(png.substr(0, png.size() - 20))), HasSubstr("image 0: is cut off; "));
+    for (std::size_t at = 37; at < png.size() - 12; ++at) {  // the chunk of texels
+        std::string damaged = png;
+        damaged[at] = static_cast<char>(damaged[at] ^ 1);
+        EXPECT_THAT(error(data_uri(damaged)), HasSubstr("image 0: is damaged")) << at;
+    }
     const std::string jpeg = jpeg_file(64, 64, std::vector<uint8_t>(std::size_t{4} * 64 * 64, 77));
     EXPECT_THAT(
         error(data_uri(jpeg.substr(0, jpeg.size() - 9))), HasSubstr("image 0: is cut off; "));
