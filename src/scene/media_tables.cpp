@@ -123,7 +123,7 @@ constexpr int stack_height = 4;  // of MEDIUM_STACK
 
 // Positions are known to 6e-8 of the scene's extent. Returns the warning that a medium is so dense
 // that this is seen (docs/stability.md), or nothing. Throws Error where it is all that is seen.
-std::string warning_of_extinction(const Material& material, double metres) {
+std::string warning_of_extinction(const Scene& scene, const Material& material, double metres) {
     constexpr double seen = 1e5;  // free paths across the scene
     constexpr double most = 1e6;
     const Medium& medium = material.medium;
@@ -139,8 +139,8 @@ std::string warning_of_extinction(const Material& material, double metres) {
         material.name, extinction, free_paths);
     if (free_paths > most)
         throw Error(
-            "{}, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a", found,
-            most);
+            "{}: {}, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a",
+            scene.name, found, most);
     return found + ", which single precision renders up to 5 % too dark";
 }
 
@@ -228,7 +228,7 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
             if (tables.rows[m] > 0) continue;
             const Material& material = scene.materials[m];
             const Medium& medium = material.medium;
-            if (auto dense = warning_of_extinction(material, geometry.extent.metres);
+            if (auto dense = warning_of_extinction(scene, material, geometry.extent.metres);
                 !dense.empty())
                 tables.warnings.push_back(std::move(dense));
             tables.media.push_back(device_medium(material, geometry.extent.metres));

@@ -251,7 +251,8 @@ TEST(MediaBoundary, AroundWhatIsDenserThanFloatsTellApartIsRefused) {
     const Camera camera = perspective({0, 0, 3}, {0, 0, 0}, 1);
     EXPECT_EQ(
         error_of(scene, camera),
-        "material \"soot\": an extinction of 1e+08 per metre makes 2.09e+08 free paths across the "
+        "ball: material \"soot\": an extinction of 1e+08 per metre makes 2.09e+08 free paths "
+        "across the "
         "scene, more than single precision tells apart (1e+06); lower sigma_s and sigma_a");
     const auto warnings = [&](double sigma_t, double albedo) {
         scene.materials[0].medium = medium_of(sigma_t, albedo);
