@@ -243,7 +243,7 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
                 "{}: encloses a medium but is not closed; rays that leave by a hole leave the "
                 "medium only when they leave the scene",
                 body.name));
-        else if (body.volume() < 0 && !is_hollow(body, bodies))
+        else if (body.volume() < -1e-12 && !is_hollow(body, bodies))  // more than rounding
             throw Error(
                 "{}: {} is inside out, so that the medium it bounds would fill the space around it "
                 "without end; turn its faces",
