@@ -16,9 +16,9 @@
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
 
-// A stop keeps this distance from boundaries, half an ulp of positions, so that rounding seldom
-// carries it over one; half a segment if that is shorter. Eight times as much made dense media dark
-// (docs/stability.md).
+// A stop keeps this distance from boundaries, half an ulp of a distance across the scene, so that
+// rounding seldom carries it over one; half a segment if that is shorter. Eight times as much made
+// dense media dark (docs/stability.md).
 #define STOP_MARGIN 0x1p-24f
 
 kernel void sample_distance(
