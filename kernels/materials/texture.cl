@@ -119,7 +119,9 @@ typedef struct {
 } TexelPair;
 
 INLINE TexelPair
-texel_pair(const float coordinate, const int size, const int clamps, const int mirrors) {
+texel_pair(const float given, const int size, const int clamps, const int mirrors) {
+    // beyond 2^30 floats hold whole turns alone; infinity and NaN would lead outside the image
+    const float coordinate = fmax(fmin(given, 0x1p30f), -0x1p30f);
     const float half_turns = 0.5f * coordinate;
     const float turn = 2.0f * (half_turns - floor(half_turns));
     const float mirrored = turn > 1.0f ? 2.0f - turn : turn;

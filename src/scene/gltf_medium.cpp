@@ -45,6 +45,11 @@ class MediumReader {
 
     Medium read() const { return has_extras() ? from_extras() : from_volume(); }
 
+    bool scatters() const {
+        return find_extension(source_.extensions, "KHR_materials_scatter") ||
+               find_extension(source_.extensions, "KHR_materials_volume_scatter");
+    }
+
     bool has_scatter_textures() const {
         if (has_extras()) return false;
         for (const char* name : {"KHR_materials_scatter", "KHR_materials_volume_scatter"}) {
@@ -176,6 +181,8 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
             "KHR_materials_volume with thicknessFactor above 0, metallicFactor 0, an ior of 1 or "
             "more, and no KHR_materials_unlit; repair it",
             extras_key);
+    if (!is_volume && reader.scatters())
+        ignored.add("materials that scatter without a volume", "rendered as if they did not");
     if (!is_volume || material.unlit) return;
     constexpr const char* instead = "rendered as thin walls";
     if (transmission < 1 || material.metallic > 0)

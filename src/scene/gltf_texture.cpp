@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 
@@ -36,7 +37,8 @@ std::array<double, 2> pair_of(
     const char* key,
     double missing) {
     const std::vector<double> values = numbers(file, where, object, key, {missing, missing});
-    if (values.size() != 2 || !std::isfinite(values[0]) || !std::isfinite(values[1]))
+    const auto fits = [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); };
+    if (values.size() != 2 || !std::ranges::all_of(values, fits))
         file.fail(where, "{} is not a pair of numbers; repair it or export again", key);
     return {values[0], values[1]};
 }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC  // libtinygltf brings another copy
@@ -54,6 +55,32 @@ bool has_damaged_chunks(Bytes bytes) {
         bytes = bytes.subspan(frame + length);
     }
     return false;  // what is cut off the decoder finds
+}
+
+// stb_image writes beyond its tables where a Huffman table has more than 256 codes [ITU T.81,
+// section B.2.4.2]: every such table of the file is looked at before.
+bool has_overfull_huffman_tables(Bytes bytes) {
+    if (bytes.size() < 2 || bytes[0] != 0xFF || bytes[1] != 0xD8) return false;
+    bytes = bytes.subspan(2);
+    while (bytes.size() >= 4) {
+        const unsigned marker = bytes[1];
+        const bool has_segment =
+            bytes[0] == 0xFF && marker > 1 && marker != 0xFF && (marker < 0xD0 || marker > 0xD9);
+        const std::size_t length = std::size_t{bytes[2]} << 8U | bytes[3];
+        if (!has_segment || length < 2 || length > bytes.size() - 2) {
+            bytes = bytes.subspan(1);
+            continue;
+        }
+        Bytes tables = bytes.subspan(4, length - 2);
+        while (marker == 0xC4 && tables.size() >= 17) {
+            const Bytes counts = tables.subspan(1, 16);
+            const std::size_t codes = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+            if (codes > 256) return true;
+            tables = tables.subspan(std::min(17 + codes, tables.size()));
+        }
+        bytes = bytes.subspan(2 + length);
+    }
+    return false;
 }
 
 // stb_image takes the end of a file for zeros, and paints what is cut off grey: this source
@@ -128,6 +155,8 @@ ImageSize read_image_size(Bytes bytes) {
 
 TextureImage decode_image(Bytes bytes) {
     if (is_webp(bytes)) return decode_webp(bytes);
+    if (has_overfull_huffman_tables(bytes))
+        throw Error("is damaged (a Huffman table has too many codes); export it again");
     if (has_damaged_chunks(bytes)) throw Error("is damaged (a checksum is wrong); export it again");
     int width = 0;
     int height = 0;

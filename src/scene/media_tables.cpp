@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -123,7 +125,8 @@ constexpr int stack_height = 4;  // of MEDIUM_STACK
 
 // Positions are known to 6e-8 of the scene's extent. Returns the warning that a medium is so dense
 // that this is seen (docs/stability.md), or nothing. Throws Error where it is all that is seen.
-std::string warning_of_extinction(const Scene& scene, const Material& material, double metres) {
+std::string warning_of_extinction(const Scene& scene, uint32_t index, double metres) {
+    const Material& material = scene.materials[index];
     constexpr double seen = 1e5;  // free paths across the scene
     constexpr double most = 1e6;
     const Medium& medium = material.medium;
@@ -134,9 +137,9 @@ std::string warning_of_extinction(const Scene& scene, const Material& material, 
     const double free_paths = extinction * metres;
     if (free_paths <= seen) return {};
     const std::string found = fmt::format(
-        "material \"{}\": an extinction of {:.3g} per metre makes {:.3g} free paths across the "
+        "material {} \"{}\": an extinction of {:.3g} per metre makes {:.3g} free paths across the "
         "scene",
-        material.name, extinction, free_paths);
+        index, material.name, extinction, free_paths);
     if (free_paths > most)
         throw Error(
             "{}: {}, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a",
@@ -152,11 +155,18 @@ Vec3d as_vector(const Point& p) {
     return {p[0], p[1], p[2]};
 }
 
+// The media that a body's faces bound: rows + 1.
+std::set<uint32_t> rows_of(const Body& body, const MediaTables& tables) {
+    std::set<uint32_t> rows;
+    for (const uint32_t m : body.boundaries) rows.insert(tables.rows[m]);
+    return rows;
+}
+
 // A body whose faces look inwards ends the medium of one around it: a hollow in glass. Without one,
 // the medium that it begins outside would fill the space without bound.
-bool is_hollow(const Body& body, const std::vector<Body>& bodies) {
+bool is_hollow(const Body& body, const std::vector<Body>& bodies, const MediaTables& tables) {
     return std::ranges::any_of(bodies, [&](const Body& other) {
-        return &other != &body && other.boundaries == body.boundaries &&
+        return &other != &body && rows_of(other, tables) == rows_of(body, tables) &&
                other.winding(as_vector(vertex_of(body))) > 0.25;  // or touches its surface
     });
 }
@@ -172,22 +182,43 @@ void check_nesting(const Scene& scene, const Body& body, const std::vector<Body>
         body.name, around, stack_height);
 }
 
-DeviceMedium device_medium(const Material& material, double metres) {
+DeviceMedium device_medium(const Scene& scene, uint32_t index, double metres) {
+    const Material& material = scene.materials[index];
     const Medium& medium = material.medium;
-    const auto scaled = [&](float per_metre) { return static_cast<float>(per_metre * metres); };
+    const auto scaled = [&](double per_metre) {
+        if (per_metre * metres > std::numeric_limits<float>::max())
+            throw Error(
+                "{}: material {} \"{}\": {:.3g} per metre of its medium, across the scene's {:.3g} "
+                "m, "
+                "is too much for single precision; lower it",
+                scene.name, index, material.name, per_metre, metres);
+        return static_cast<float>(per_metre * metres);
+    };
     DeviceMedium d{};
     d.sigma_s_r = scaled(medium.sigma_s[0]);
     d.sigma_s_g = scaled(medium.sigma_s[1]);
     d.sigma_s_b = scaled(medium.sigma_s[2]);
-    d.sigma_t_r = scaled(medium.sigma_a[0] + medium.sigma_s[0]);
-    d.sigma_t_g = scaled(medium.sigma_a[1] + medium.sigma_s[1]);
-    d.sigma_t_b = scaled(medium.sigma_a[2] + medium.sigma_s[2]);
+    d.sigma_t_r = scaled(double{medium.sigma_a[0]} + double{medium.sigma_s[0]});
+    d.sigma_t_g = scaled(double{medium.sigma_a[1]} + double{medium.sigma_s[1]});
+    d.sigma_t_b = scaled(double{medium.sigma_a[2]} + double{medium.sigma_s[2]});
     d.emission_r = scaled(medium.emission[0]);
     d.emission_g = scaled(medium.emission[1]);
     d.emission_b = scaled(medium.emission[2]);
     d.anisotropy = medium.anisotropy;
     d.ior = material.boundary == Boundary::dielectric ? material.ior : 1;
     return d;
+}
+
+// The row + 1 of a medium in the table: materials of equal media share one, so that a ray may enter
+// by one of them and leave by another.
+uint32_t row_of(const DeviceMedium& medium, std::vector<DeviceMedium>& media) {
+    const auto equal = [&](const DeviceMedium& other) {
+        return std::memcmp(&other, &medium, sizeof medium) == 0;
+    };
+    const auto found = std::ranges::find_if(media, equal);
+    const auto row = static_cast<uint32_t>(found - media.begin()) + 1;
+    if (found == media.end()) media.push_back(medium);
+    return row;
 }
 
 // Whether the film rectangle of an orthographic camera may meet the triangle: the box, in pixels,
@@ -223,27 +254,32 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
     MediaTables tables;
     tables.rows.assign(scene.materials.size(), 0);
     const std::vector<Body> bodies = bodies_with_media(scene, geometry);
-    for (const Body& body : bodies) {
+    for (const Body& body : bodies)
         for (const uint32_t m : body.boundaries) {
             if (tables.rows[m] > 0) continue;
             const Material& material = scene.materials[m];
             const Medium& medium = material.medium;
-            if (auto dense = warning_of_extinction(scene, material, geometry.extent.metres);
+            if (auto dense = warning_of_extinction(scene, m, geometry.extent.metres);
                 !dense.empty())
                 tables.warnings.push_back(std::move(dense));
-            tables.media.push_back(device_medium(material, geometry.extent.metres));
+            tables.rows[m] = row_of(device_medium(scene, m, geometry.extent.metres), tables.media);
             tables.refract = tables.refract || material.boundary == Boundary::dielectric;
             tables.refract_roughly = tables.refract_roughly || refracts_roughly(material);
-            tables.rows[m] = static_cast<uint32_t>(tables.media.size());
             tables.scatter = tables.scatter || medium.scatters();
             tables.emit = tables.emit || medium.emits();
         }
+    for (const Body& body : bodies) {
+        if (rows_of(body, tables).size() > 1)
+            tables.warnings.push_back(fmt::format(
+                "{}: its faces bound different media, so a ray may enter one and leave another; "
+                "give them one medium",
+                body.name));
         if (!body.is_closed())
             tables.warnings.push_back(fmt::format(
                 "{}: encloses a medium but is not closed; rays that leave by a hole leave the "
                 "medium only when they leave the scene",
                 body.name));
-        else if (body.volume() < -1e-12 && !is_hollow(body, bodies))  // more than rounding
+        else if (body.volume() < -1e-12 && !is_hollow(body, bodies, tables))  // more than rounding
             throw Error(
                 "{}: {} is inside out, so that the medium it bounds would fill the space around it "
                 "without end; turn its faces",
@@ -297,9 +333,9 @@ uint32_t media_at_camera(
                 "medium; move the camera back or forth",
                 scene.name, body.name);
         const double winding = body.winding(camera);
-        for (const uint32_t m : body.boundaries) {
-            if (winding > 0.5) around.emplace_back(body.volume(), tables.rows[m]);
-            if (winding < -0.5) hollow.push_back(tables.rows[m]);
+        for (const uint32_t row : rows_of(body, tables)) {
+            if (winding > 0.5) around.emplace_back(body.volume(), row);
+            if (winding < -0.5) hollow.push_back(row);
         }
     }
     std::ranges::sort(around, std::greater<>());

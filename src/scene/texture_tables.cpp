@@ -62,7 +62,8 @@ DeviceTexture texture_row(
     return row;
 }
 
-std::size_t wrapped(Wrap wrap, double coordinate, uint32_t size) {
+std::size_t wrapped(Wrap wrap, double given, uint32_t size) {
+    const double coordinate = std::fmax(std::fmin(given, 0x1p30), -0x1p30);
     const double repeated = coordinate - std::floor(coordinate);
     const double turn = 2 * (coordinate / 2 - std::floor(coordinate / 2));
     const double within = wrap == Wrap::clamp    ? std::clamp(coordinate, 0.0, 1.0)

@@ -251,7 +251,7 @@ TEST(MediaBoundary, AroundWhatIsDenserThanFloatsTellApartIsRefused) {
     const Camera camera = perspective({0, 0, 3}, {0, 0, 0}, 1);
     EXPECT_EQ(
         error_of(scene, camera),
-        "ball: material \"soot\": an extinction of 1e+08 per metre makes 2.09e+08 free paths "
+        "ball: material 0 \"soot\": an extinction of 1e+08 per metre makes 2.09e+08 free paths "
         "across the "
         "scene, more than single precision tells apart (1e+06); lower sigma_s and sigma_a");
     const auto warnings = [&](double sigma_t, double albedo) {
@@ -259,7 +259,8 @@ TEST(MediaBoundary, AroundWhatIsDenserThanFloatsTellApartIsRefused) {
         return render_scene(scene, square_settings("mis", camera, 2, 1)).warnings;
     };
     const std::vector<std::string> warning = {
-        "material \"soot\": an extinction of 1e+05 per metre makes 2.09e+05 free paths across the "
+        "material 0 \"soot\": an extinction of 1e+05 per metre makes 2.09e+05 free paths across "
+        "the "
         "scene, which single precision renders up to 5 % too dark"};
     EXPECT_EQ(warnings(1e5, 0.5), warning);
     EXPECT_TRUE(warnings(1e4, 0.5).empty());
@@ -315,6 +316,23 @@ TEST(MediaBoundary, InsideOutIsAHollowOrRefused) {
     };
     EXPECT_NEAR(seen(above) / std::exp(-2 * 0.7), 1, 1e-5);
     EXPECT_NEAR(seen(orthographic({0.1, 0.2, 0}, {0.1, 0.2, 3}, 0.1)) / std::exp(-0.7), 1, 1e-5);
+}
+
+// A ray may enter by one material and leave by another where their media are equal.
+TEST(MediaBoundary, OfEqualMediaIsOfOne) {
+    for (const double below : {0.5, 0.7}) {
+        Scene scene = scene_named("two materials");
+        scene.environment = constant_environment(1);
+        add_square(scene, lambert(grey(0), grey(1)), {0, 0, -3}, {0, 0, 1}, 8);
+        add_box(scene, boundary_of(medium_of(0.5, 0)), {-1, -1, -1}, {1, 1, 1}, Facing::outward);
+        split_off(scene, 18, boundary_of(medium_of(below, 0)));
+        const RenderResult result = render_scene(
+            scene, square_settings("mis", orthographic({0.1, 0.2, 3}, {0.1, 0.2, 0}, 0.1), 8, 4));
+        EXPECT_EQ(result.warnings.size(), below == 0.5 ? 0U : 1U);
+        if (below == 0.5) {
+            EXPECT_NEAR(shared_mean(result).mean / std::exp(-0.5 * 2), 1, 1e-5);
+        }
+    }
 }
 
 // Four media fit. A fifth is refused where a body lies in four others, and is a NaN where bodies

@@ -136,6 +136,15 @@ TEST(GltfTexture, ReadsSamplers) {
 }
 
 // A quarter turn counter-clockwise in a plane whose v points down takes (1, 0) to (0, -1).
+TEST(GltfTexture, RefusesTransformsBeyondFloats) {
+    for (const char* key : {"scale", "offset"})
+        EXPECT_THAT(
+            load_error(textured(
+                {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{key, {1e39, 1}}}}}}},
+                data_uri(png_file(2, 1, two_texels)))),
+            HasSubstr("not a pair of numbers"));
+}
+
 TEST(GltfTexture, TransformsCoordinates) {
     const Json transform{
         {"offset", {0.5, 0.25}},
@@ -188,6 +197,10 @@ TEST(GltfTexture, SaysWhatIsWrongWithAnImage) {
         damaged[at] = static_cast<char>(damaged[at] ^ 1);
         EXPECT_THAT(error(data_uri(damaged)), HasSubstr("image 0: is damaged")) << at;
     }
+    std::string overfull = jpeg_file(8, 8, std::vector<uint8_t>(256, 77));
+    overfull[overfull.find("\xFF\xC4") + 5] = '\xFF';  // codes of one bit
+    overfull[overfull.find("\xFF\xC4") + 6] = '\xFF';
+    EXPECT_THAT(error(data_uri(overfull)), HasSubstr("Huffman"));
     const std::string jpeg = jpeg_file(64, 64, std::vector<uint8_t>(std::size_t{4} * 64 * 64, 77));
     EXPECT_THAT(
         error(data_uri(jpeg.substr(0, jpeg.size() - 9))), HasSubstr("image 0: is cut off; "));
