@@ -73,6 +73,26 @@ TEST(SampleFiles, ModelsLoadOrSayWhyNot) {
     }
 }
 
+// No sample of any model is a NaN, and a second render gives the same bytes.
+TEST(SampleFiles, ModelsRenderTheSameTwiceWithoutNaN) {
+    const fs::path assets = asset_folder();
+    if (assets.empty()) GTEST_SKIP() << "no sample models: WAVEPATH_ASSETS names no folder";
+    std::size_t rendered = 0;
+    for (const auto& [file, count] : listed_triangle_counts(assets / "INDEX.md")) {
+        SCOPED_TRACE(file);
+        Scene scene;
+        if (!error_of([&] { scene = load_gltf(assets / file); }).empty()) continue;
+        scene.environment = constant_environment(1);
+        const RenderSettings settings = square_settings("mis", choose_camera(scene, ""), 24, 4);
+        const RenderResult first = render(test_device(), scene, settings);
+        EXPECT_EQ(first.film.nonfinite.samples, 0U);
+        const RenderResult second = render(test_device(), scene, settings);
+        EXPECT_EQ(first.film.image.channels, second.film.image.channels);
+        ++rendered;
+    }
+    EXPECT_EQ(rendered, 42U);
+}
+
 // Triangles turned round until they begin with their least index: the codec for triangles keeps
 // their order and their winding, not their first corner.
 std::vector<std::uint32_t> least_corner_first(std::vector<std::uint32_t> indices) {
