@@ -1,6 +1,6 @@
 // Lets paths through index-matched boundaries but for those that `intersect` passed: the ray goes
 // on as it is, behind the boundary, tinted by its base colour, in the medium that begins or ends
-// there. That is no scattering.
+// there. That is no scattering. At other surfaces: which media the rays that leave it start in.
 //
 // reads: rays, surfaces, scene
 //
@@ -38,6 +38,31 @@ __attribute__((noinline)) void pass(
     [slot] = as_float(max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
 }
 
+// Rays that leave a surface start RAY_OFFSET above it. Where the path passed a boundary closer to
+// it than that, they start on the near side, in the media before that boundary. Not inlined, as
+// above.
+__attribute__((noinline)) void return_before_boundary(
+    const size_t stride,
+    const size_t slot,
+    const int boundary,
+    global const DeviceMaterial* materials,
+    global const float* triangles,
+    global const float* rays,
+    global const float* surfaces,
+    global const float* hits,
+    global float* path_media) {
+    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+    const float cosine = fabs(dot3(load3(PLANE(surfaces, SURFACE_NG_X), stride, slot), direction));
+    const float apart = PLANE(hits, HIT_T)[slot] - PLANE(path_media, MEDIUM_T)[slot];
+    if (apart * cosine > RAY_OFFSET) return;
+    global const float* triangle = triangles + TRIANGLE_FLOATS * boundary;
+    const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
+    const uint before = cross_boundary(
+        stack, materials[as_int(triangle[TRIANGLE_MATERIAL])].medium, triangle,
+        scale3(direction, -1.0f));
+    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(before);
+}
+
 kernel void pass_boundary(
     constant const RenderParams* restrict settings,
     const uint slots,
@@ -55,7 +80,13 @@ kernel void pass_boundary(
     if (primitive < 0) return;
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
-    if (material->boundary < BOUNDARY_INDEX_MATCHED) return;
+    if (material->boundary < BOUNDARY_INDEX_MATCHED) {
+        const int boundary = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]);
+        if (boundary != NO_BOUNDARY)
+            return_before_boundary(
+                stride, slot, boundary, materials, triangles, rays, surfaces, hits, path_media);
+        return;
+    }
     pass(
         stride, slot, primitive, material, triangles, rays, surfaces, path_media, hits,
         throughputs);

@@ -234,6 +234,26 @@ TEST(MediaBoundary, OfFogMayLieCloseToItsLamp) {
         EXPECT_TRUE(agree(lit(gap), apart, {.bias = 0.01, .tests = 3})) << gap;
 }
 
+// Fog that ends at a floor, a little above it, or reaches into it: the floor lies in fog, whichever
+// of the two is met first.
+TEST(MediaBoundary, OfFogMayEndAtAFloor) {
+    const auto lit = [](double low, bool floor_first) {
+        Scene scene = scene_named("fog on a floor");
+        scene.environment = constant_environment(1);
+        if (floor_first) add_square(scene, lambert(grey(0.8F)), {0, 0, 0}, {0, 0, 1}, 4);
+        add_box(scene, boundary_of(medium_of(1, 0)), {-2, -2, low}, {2, 2, 1}, Facing::outward);
+        if (!floor_first) add_square(scene, lambert(grey(0.8F)), {0, 0, 0}, {0, 0, 1}, 4);
+        return shared_mean(render_for(
+            {.bias = 0.01 / 1.5, .tests = 8}, scene,
+            square_settings("mis", orthographic({0.1, 0.03, 3}, {0.1, 0.03, 0}, 0.01), 16, 64)));
+    };
+    const Estimate truth = lit(-0.1, true);
+    for (const double low : {0.0, 1e-7, 1e-6, 1e-5})
+        for (const bool floor_first : {true, false})
+            EXPECT_TRUE(agree(lit(low, floor_first), truth, {.bias = 0.01, .tests = 8}))
+                << low << ", floor first: " << floor_first;
+}
+
 std::string error_of(const Scene& scene, const Camera& camera) {
     try {
         render(test_device(), scene, square_settings("mis", camera, 2, 1));
