@@ -1,6 +1,6 @@
 // Lets paths through index-matched boundaries but for those that `intersect` passed: the ray goes
 // on as it is, behind the boundary, tinted by its base colour, in the medium that begins or ends
-// there. That is no scattering. At other surfaces: which media the rays that leave it start in.
+// there. That is no scattering. At opaque surfaces: which media the rays that leave start in.
 //
 // reads: rays, surfaces, scene
 //
@@ -38,9 +38,9 @@ __attribute__((noinline)) void pass(
     [slot] = as_float(max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
 }
 
-// Rays that leave a surface start RAY_OFFSET above it. Where the path passed a boundary closer to
-// it than that, they start on the near side, in the media before that boundary. Not inlined, as
-// above.
+// Rays that an opaque surface sends back start RAY_OFFSET above it. Where the path passed a
+// boundary closer to it than that, they start on the near side, in the media before that boundary.
+// Not inlined, as above.
 __attribute__((noinline)) void return_before_boundary(
     const size_t stride,
     const size_t slot,
@@ -82,7 +82,9 @@ kernel void pass_boundary(
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     if (material->boundary < BOUNDARY_INDEX_MATCHED) {
         const int boundary = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]);
-        if (boundary != NO_BOUNDARY)
+        const int sends_back =
+            material->boundary == BOUNDARY_OPAQUE && material->transmission == 0.0f;
+        if (boundary != NO_BOUNDARY && sends_back)
             return_before_boundary(
                 stride, slot, boundary, materials, triangles, rays, surfaces, hits, path_media);
         return;

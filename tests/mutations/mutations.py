@@ -174,7 +174,7 @@ MUTATIONS = [
      "const float weight = weight_of_crossing(stack, crossed, material->medium);", "const float weight = 1.0f;",
      "MediaBoundary.OfAFifthMediumIsRefusedOrFound"),
     ("floors where fog ends lie outside it", "stages/pass_boundary.cl",
-     "if (boundary != NO_BOUNDARY)", "if (0)",
+     "if (boundary != NO_BOUNDARY && sends_back)", "if (0)",
      "MediaBoundary.OfFogMayEndAtAFloor"),
     ("equiangular density of another height", "media/homogeneous.cl",
      "return view.height / (2.0f", "return 1.01f * view.height / (2.0f",
