@@ -13,6 +13,9 @@ constexpr const char* extras_key = "wavepath_medium";
 constexpr const char* albedo_spellings[] = {
     "multiscatterColorFactor", "multiscatterColor", "scatterAlbedo"};
 
+constexpr const char* scatter_extensions[] = {
+    "KHR_materials_scatter", "KHR_materials_volume_scatter"};
+
 // Henyey-Greenstein beyond this is a delta in single precision.
 constexpr double largest_anisotropy = 0.99999;
 
@@ -46,13 +49,14 @@ class MediumReader {
     Medium read() const { return has_extras() ? from_extras() : from_volume(); }
 
     bool scatters() const {
-        return find_extension(source_.extensions, "KHR_materials_scatter") ||
-               find_extension(source_.extensions, "KHR_materials_volume_scatter");
+        return std::ranges::any_of(scatter_extensions, [&](const char* name) {
+            return find_extension(source_.extensions, name) != nullptr;
+        });
     }
 
     bool has_scatter_textures() const {
         if (has_extras()) return false;
-        for (const char* name : {"KHR_materials_scatter", "KHR_materials_volume_scatter"}) {
+        for (const char* name : scatter_extensions) {
             const auto* extension = find_extension(source_.extensions, name);
             if (extension && std::ranges::any_of(extension->Keys(), [](const std::string& key) {
                     return key.ends_with("Texture");

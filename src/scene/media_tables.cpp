@@ -147,12 +147,8 @@ std::string warning_of_extinction(const Scene& scene, uint32_t index, double met
     return found + ", which single precision renders up to 5 % too dark";
 }
 
-Point vertex_of(const Body& body) {
-    return body.triangles.front().front();
-}
-
-Vec3d as_vector(const Point& p) {
-    return {p[0], p[1], p[2]};
+Vec3d vertex_of(const Body& body) {
+    return minus(body.triangles.front().front(), {});
 }
 
 // The media that a body's faces bound: rows + 1.
@@ -167,7 +163,7 @@ std::set<uint32_t> rows_of(const Body& body, const MediaTables& tables) {
 bool is_hollow(const Body& body, const std::vector<Body>& bodies, const MediaTables& tables) {
     return std::ranges::any_of(bodies, [&](const Body& other) {
         return &other != &body && rows_of(other, tables) == rows_of(body, tables) &&
-               other.winding(as_vector(vertex_of(body))) > 0.25;  // or touches its surface
+               other.winding(vertex_of(body)) > 0.25;  // or touches its surface
     });
 }
 
@@ -175,7 +171,7 @@ bool is_hollow(const Body& body, const std::vector<Body>& bodies, const MediaTab
 void check_nesting(const Scene& scene, const Body& body, const std::vector<Body>& bodies) {
     double around = 0;  // hollows count -1
     for (const Body& other : bodies)
-        if (&other != &body) around += std::round(other.winding(as_vector(vertex_of(body))));
+        if (&other != &body) around += std::round(other.winding(vertex_of(body)));
     if (around < double{stack_height}) return;
     throw Error(
         "{}: {} lies inside {} other media; at most {} may lie around one another", scene.name,
@@ -189,8 +185,7 @@ DeviceMedium device_medium(const Scene& scene, uint32_t index, double metres) {
         if (per_metre * metres > std::numeric_limits<float>::max())
             throw Error(
                 "{}: material {} \"{}\": {:.3g} per metre of its medium, across the scene's {:.3g} "
-                "m, "
-                "is too much for single precision; lower it",
+                "m, is too much for single precision; lower it",
                 scene.name, index, material.name, per_metre, metres);
         return static_cast<float>(per_metre * metres);
     };

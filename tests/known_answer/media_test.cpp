@@ -272,16 +272,15 @@ TEST(MediaBoundary, AroundWhatIsDenserThanFloatsTellApartIsRefused) {
     EXPECT_EQ(
         error_of(scene, camera),
         "ball: material 0 \"soot\": an extinction of 1e+08 per metre makes 2.09e+08 free paths "
-        "across the "
-        "scene, more than single precision tells apart (1e+06); lower sigma_s and sigma_a");
+        "across the scene, more than single precision tells apart (1e+06); lower sigma_s and "
+        "sigma_a");
     const auto warnings = [&](double sigma_t, double albedo) {
         scene.materials[0].medium = medium_of(sigma_t, albedo);
         return render_scene(scene, square_settings("mis", camera, 2, 1)).warnings;
     };
     const std::vector<std::string> warning = {
         "material 0 \"soot\": an extinction of 1e+05 per metre makes 2.09e+05 free paths across "
-        "the "
-        "scene, which single precision renders up to 5 % too dark"};
+        "the scene, which single precision renders up to 5 % too dark"};
     EXPECT_EQ(warnings(1e5, 0.5), warning);
     EXPECT_TRUE(warnings(1e4, 0.5).empty());
     EXPECT_TRUE(warnings(1e8, 0).empty());  // absorbs at once
