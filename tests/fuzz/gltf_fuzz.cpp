@@ -6,8 +6,14 @@
 // exception, a crash, a sanitizer's report or 20 s of work without an answer, leaves the file in
 // ./gltf_fuzz and ends the program. Build it with the preset `asan`.
 #include "error.h"
+#include "scene/bvh_builder.h"
 #include "scene/gltf_loader.h"
+#include "scene/light_guide.h"
+#include "scene/light_tables.h"
+#include "scene/media_tables.h"
 #include "scene/normalise.h"
+#include "scene/texture_tables.h"
+#include "wavefront/features.h"
 
 #include <fmt/format.h>
 #include <sys/time.h>
@@ -241,6 +247,18 @@ struct Tally {
     std::size_t refused = 0;
 };
 
+// What rendering builds before it needs a device.
+void build_tables(const Scene& scene, const NormalisedScene& geometry) {
+    const LightTables lights = build_light_tables(scene, geometry, LightChoice::power, true);
+    for (const DeviceLight& light : lights.lights)
+        if (!(light.pmf >= 0)) throw std::logic_error("the chance of a light is not a number");
+    const MediaTables media = build_media_tables(scene, geometry);
+    constexpr uint64_t page = 1U << 30U;
+    build_texture_tables(scene, worn_materials(scene, geometry), page);
+    guide_to_lights(scene, geometry, lights, media);
+    build_bvh(geometry.positions);
+}
+
 // Throws what is a finding.
 void load(const fs::path& path, Tally& tally) {
     try {
@@ -251,6 +269,7 @@ void load(const fs::path& path, Tally& tally) {
                 if (!(std::abs(x) <= 0.501F)) throw std::logic_error("a corner is out of bounds");
             for (const float x : geometry.normals)
                 if (!std::isfinite(x)) throw std::logic_error("a normal is not finite");
+            build_tables(scene, geometry);
         }
         ++tally.loaded;
     } catch (const Error& error) {
