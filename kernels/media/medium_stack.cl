@@ -34,15 +34,27 @@ INLINE uint cross_boundary(
     return enters ? enter_medium(stack, medium) : leave_medium(stack, medium);
 }
 
-// The ray goes on behind the boundary, in these media.
+// How far along a ray surfaces behind this triangle still touch it: RAY_OFFSET along its normal. A
+// grazing ray may leave a curved surface before that.
+INLINE float touching_distance(global const float* triangle, const Vec3 direction) {
+    const float cosine = fabs(dot3(normalize3(triangle_cross(triangle)), direction));
+    return RAY_OFFSET / max(cosine, 0x1p-8f);
+}
+
+// The ray goes on behind the boundary of this triangle, met at t, from these media into those.
 INLINE void go_on_behind(
     global float* path_media,
     const size_t stride,
     const size_t slot,
     const uint stack,
+    const uint crossed,
     const float t,
-    const int primitive) {
-    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(stack);
+    const int primitive,
+    const float touching) {
+    const int alone = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]) == NO_BOUNDARY ||
+                      t - PLANE(path_media, MEDIUM_T)[slot] > touching;
+    if (alone) PLANE(path_media, MEDIUM_BEFORE)[slot] = as_float(stack);
+    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(crossed);
     PLANE(path_media, MEDIUM_T)[slot] = t;
     PLANE(path_media, MEDIUM_PRIMITIVE)[slot] = as_float(primitive);
     PLANE(path_media, MEDIUM_PASSES)

@@ -56,6 +56,9 @@
 #ifndef HAS_DIELECTRICS
 #define HAS_DIELECTRICS 1  // some boundary refracts
 #endif
+#ifndef HAS_CONTACTS
+#define HAS_CONTACTS 1  // something touches such a boundary
+#endif
 #ifndef ROUGH_DIELECTRICS
 #define ROUGH_DIELECTRICS 1  // some boundary refracts by microfacets
 #endif

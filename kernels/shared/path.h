@@ -73,9 +73,20 @@ enum MediumPlane {
                        // behind a dielectric, from which the ray's origin keeps RAY_OFFSET
     MEDIUM_PRIMITIVE,  // (int bits) the boundary it begins at; NO_BOUNDARY at the ray's origin
     MEDIUM_PASSES,     // (uint bits) boundaries passed since the ray's origin
+    MEDIUM_BEFORE,  // (uint bits) MEDIUM_STACK before MEDIUM_PRIMITIVE and boundaries touching it
     MEDIUM_PLANES
 };
 #define NO_BOUNDARY (-1)
+
+// contacts: what is behind the dielectric that was hit and all that touches it (only with
+// HAS_CONTACTS; from find_contacts to refract_boundary)
+enum ContactPlane {
+    CONTACT_MEDIA,  // (uint bits) MEDIUM_STACK there
+    CONTACT_R,      // [1] product of the base colours of what touches the dielectric
+    CONTACT_G,
+    CONTACT_B,
+    CONTACT_PLANES
+};
 
 // throughputs: what the path carries
 enum ThroughputPlane {

@@ -8,10 +8,8 @@
 //
 // One work-item a slot.
 
-#include "geometry/bvh.cl"
-#include "geometry/surface_texture.cl"
+#include "media/boundary.cl"
 #include "media/homogeneous.cl"
-#include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
 #include "shared/queues.h"
@@ -48,12 +46,15 @@ kernel void connect_through_media(
         const Hit hit = closest_hit(
             nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
             t_max, start, holes_in(&cover));
-        const int arrives = hit.primitive < 0 || hit.t >= t_max;
-        if (!arrives) {
-            global const float* triangle = triangles + TRIANGLE_FLOATS * hit.primitive;
-            const int opaque =
-                materials[as_int(triangle[TRIANGLE_MATERIAL])].boundary < BOUNDARY_INDEX_MATCHED;
-            if (opaque) return;
+        global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * max(hit.primitive, 0);
+        global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
+        int arrives = hit.primitive < 0 || hit.t >= t_max;
+        if (!arrives && material->boundary < BOUNDARY_INDEX_MATCHED) {
+            // glass that touches the light: paths meet the light in its place (find_contacts)
+            arrives = HAS_CONTACTS && material->boundary == BOUNDARY_DIELECTRIC &&
+                      (t_max - hit.t) * length <=
+                          touching_distance(triangle, scale3(direction, 1.0f / length));
+            if (!arrives) return;
         }
         const uint innermost = innermost_medium(stack);
         if (innermost > 0)
@@ -61,19 +62,9 @@ kernel void connect_through_media(
                 tau, extinction(media + (int)innermost - 1),
                 ((arrives ? t_max : hit.t) - start.t) * length);
         if (arrives) break;
-        const Interaction x =
-            find_interaction(triangles, materials, hit.primitive, hit.u, hit.v, direction);
-        value = mul3(value, x.base);
-        if (HAS_TEXTURES) {
-            const Texel t = texture_on_triangle(
-                cover.textures, texture_row(cover.textures, x.material, TEXTURE_BASE_COLOR),
-                triangles + (size_t)TRIANGLE_FLOATS * hit.primitive, hit.u, hit.v);
-            value = mul3(value, vec3(t.r, t.g, t.b));
-        }
-        const uint medium = materials[x.material].medium;
-        const uint crossed =
-            cross_boundary(stack, medium, triangles + TRIANGLE_FLOATS * hit.primitive, direction);
-        value = scale3(value, weight_of_crossing(stack, crossed, medium));
+        const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
+        value = mul3(value, tint_of_boundary(&cover, materials, &hit));
+        value = scale3(value, weight_of_crossing(stack, crossed, material->medium));
         stack = crossed;
         start = ray_start(hit.t, hit.primitive);
     }

@@ -2,7 +2,7 @@
 // connection to `occlusion` or `connect_through_media` (notes 5, directRadianceEstimator, with the
 // f_r that the notes leave out; notes 6).
 //
-// reads: rays, hits, surfaces, throughputs, ids, media, scene, lights, textures
+// reads: rays, hits, surfaces, throughputs, ids, media, contacts, scene, lights, textures
 //
 // writes: shadows
 //
@@ -34,6 +34,7 @@ kernel void direct_light(
     global const float* restrict throughputs,
     global const uint* restrict ids,
     global const float* restrict path_media,
+    global const float* restrict contacts,
     global float* restrict shadows) {
     const RenderParams params = *settings;
     const size_t stride = params.stride;
@@ -57,8 +58,10 @@ kernel void direct_light(
             materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
         refracts = !in_medium & (material->boundary == BOUNDARY_DIELECTRIC);
         if (refracts) {
-            crossed = cross_boundary(
-                stack, material->medium, triangles + TRIANGLE_FLOATS * primitive, direction);
+            crossed = HAS_CONTACTS ? as_uint(PLANE(contacts, CONTACT_MEDIA)[slot])
+                                   : cross_boundary(
+                                         stack, material->medium,
+                                         triangles + TRIANGLE_FLOATS * primitive, direction);
             alpha = material->alpha;
             ior_i = refractive_index(media, stack);
             ior_t = refractive_index(media, crossed);
@@ -141,7 +144,9 @@ kernel void direct_light(
     }
     if (ROUGH_DIELECTRICS) {
         const DielectricValue v = dielectric_eval(wo, wi, alpha, ior_i, ior_t);
-        const Vec3 tint = select3(wi.z > 0.0f, vec3(1.0f, 1.0f, 1.0f), surface.base);
+        Vec3 passed = surface.base;
+        if (HAS_CONTACTS) passed = mul3(passed, load3(PLANE(contacts, CONTACT_R), stride, slot));
+        const Vec3 tint = select3(wi.z > 0.0f, vec3(1.0f, 1.0f, 1.0f), passed);
         f = select3(refracts, scale3(tint, v.value), f);
         pdf_w = refracts ? v.pdf_w : pdf_w;
         side = refracts ? (wi.z < 0.0f ? -1.0f : 1.0f) : side;

@@ -70,8 +70,8 @@ kernel void intersect(
         while (HAS_MEDIA) {
             const uint medium = clear_medium(triangles, materials, hit.primitive);
             if (medium == 0) break;
-            const uint crossed = cross_boundary(
-                stack, medium, triangles + (size_t)TRIANGLE_FLOATS * hit.primitive, direction);
+            global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * hit.primitive;
+            const uint crossed = cross_boundary(stack, medium, triangle, direction);
             if (stack != 0 && (crossed != 0 || HAS_SPLITS)) break;
             const Hit behind = closest_hit(
                 nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
@@ -80,7 +80,9 @@ kernel void intersect(
                 if (behind.primitive < 0) hit.primitive = HIT_LEAVING;
                 break;
             }
-            go_on_behind(path_media, stride, slot, crossed, hit.t, hit.primitive);
+            go_on_behind(
+                path_media, stride, slot, stack, crossed, hit.t, hit.primitive,
+                touching_distance(triangle, direction));
             stack = crossed;
             hit = behind;
         }

@@ -1,6 +1,7 @@
 // Lets paths through index-matched boundaries but for those that `intersect` passed: the ray goes
 // on as it is, behind the boundary, tinted by its base colour, in the medium that begins or ends
-// there. That is no scattering. At opaque surfaces: which media the rays that leave start in.
+// there. That is no scattering. At other surfaces: which media the rays that they send back start
+// in.
 //
 // reads: rays, surfaces, scene
 //
@@ -25,42 +26,19 @@ __attribute__((noinline)) void pass(
     global float* hits,
     global float* throughputs) {
     const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
-    const uint crossed = cross_boundary(
-        stack, material->medium, triangles + TRIANGLE_FLOATS * primitive,
-        load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));
+    global const float* triangle = triangles + TRIANGLE_FLOATS * primitive;
+    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+    const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
     const float weight = weight_of_crossing(stack, crossed, material->medium);
     const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
     const Vec3 throughput =
         scale3(mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), base), weight);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
-    go_on_behind(path_media, stride, slot, crossed, PLANE(hits, HIT_T)[slot], primitive);
+    go_on_behind(
+        path_media, stride, slot, stack, crossed, PLANE(hits, HIT_T)[slot], primitive,
+        touching_distance(triangle, direction));
     PLANE(hits, HIT_PRIMITIVE)
     [slot] = as_float(max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
-}
-
-// Rays that an opaque surface sends back start RAY_OFFSET above it. Where the path passed a
-// boundary closer to it than that, they start on the near side, in the media before that boundary.
-// Not inlined, as above.
-__attribute__((noinline)) void return_before_boundary(
-    const size_t stride,
-    const size_t slot,
-    const int boundary,
-    global const DeviceMaterial* materials,
-    global const float* triangles,
-    global const float* rays,
-    global const float* surfaces,
-    global const float* hits,
-    global float* path_media) {
-    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
-    const float cosine = fabs(dot3(load3(PLANE(surfaces, SURFACE_NG_X), stride, slot), direction));
-    const float apart = PLANE(hits, HIT_T)[slot] - PLANE(path_media, MEDIUM_T)[slot];
-    if (apart * cosine > RAY_OFFSET) return;
-    global const float* triangle = triangles + TRIANGLE_FLOATS * boundary;
-    const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
-    const uint before = cross_boundary(
-        stack, materials[as_int(triangle[TRIANGLE_MATERIAL])].medium, triangle,
-        scale3(direction, -1.0f));
-    PLANE(path_media, MEDIUM_STACK)[slot] = as_float(before);
 }
 
 kernel void pass_boundary(
@@ -81,12 +59,17 @@ kernel void pass_boundary(
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     if (material->boundary < BOUNDARY_INDEX_MATCHED) {
-        const int boundary = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]);
+        // Rays that a surface sends back start RAY_OFFSET above it. Where the path passed
+        // boundaries closer to it than that, they start before those.
+        const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+        const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
+        const float apart = PLANE(hits, HIT_T)[slot] - PLANE(path_media, MEDIUM_T)[slot];
+        const int touch = apart * max(fabs(dot3(ng, direction)), 0x1p-8f) <= RAY_OFFSET;
+        const int passed = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]) != NO_BOUNDARY;
         const int sends_back =
-            material->boundary == BOUNDARY_OPAQUE && material->transmission == 0.0f;
-        if (boundary != NO_BOUNDARY && sends_back)
-            return_before_boundary(
-                stride, slot, boundary, materials, triangles, rays, surfaces, hits, path_media);
+            material->boundary == BOUNDARY_OPAQUE ? material->transmission == 0.0f : HAS_CONTACTS;
+        if (touch & passed & sends_back)
+            PLANE(path_media, MEDIUM_STACK)[slot] = PLANE(path_media, MEDIUM_BEFORE)[slot];
         return;
     }
     pass(

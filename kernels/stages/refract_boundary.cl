@@ -2,7 +2,7 @@
 // give, else refracted into the medium that begins or ends there. A path that crosses carries
 // (n_i / n_t)^2 of the radiance behind [Veach 1997, section 5.2].
 //
-// reads: rays, surfaces, ids, scene, media
+// reads: rays, surfaces, contacts, ids, scene, media
 //
 // writes: rays, media, hits, throughputs, ids
 //
@@ -20,6 +20,7 @@ kernel void refract_boundary(
     global const DeviceMaterial* restrict materials,
     global const DeviceMedium* restrict media,
     global const float* restrict surfaces,
+    global const float* restrict contacts,
     global float* restrict rays,
     global float* restrict path_media,
     global float* restrict hits,
@@ -38,8 +39,16 @@ kernel void refract_boundary(
     const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
     const Frame frame = frame_around(load_shading_normal(surfaces, stride, slot));
     const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
-    const uint crossed =
-        cross_boundary(stack, material->medium, triangles + TRIANGLE_FLOATS * primitive, direction);
+    uint crossed;
+    Vec3 passed = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
+    if (HAS_CONTACTS) {
+        crossed = as_uint(PLANE(contacts, CONTACT_MEDIA)[slot]);
+        passed = mul3(passed, load3(PLANE(contacts, CONTACT_R), stride, slot));
+    } else {
+        crossed = cross_boundary(
+            stack, material->medium, triangles + TRIANGLE_FLOATS * primitive, direction);
+        passed = scale3(passed, weight_of_crossing(stack, crossed, material->medium));
+    }
 
     const uint seed = PLANE(ids, ID_SEED)[slot];
     const uint index = PLANE(ids, ID_INDEX)[slot];
@@ -54,8 +63,6 @@ kernel void refract_boundary(
     const Vec3 wi = to_world(frame, s.wi);
 
     const Vec3 one = vec3(1.0f, 1.0f, 1.0f);
-    const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
-    const Vec3 passed = scale3(base, weight_of_crossing(stack, crossed, material->medium));
     const Vec3 throughput = mul3(
         load3(PLANE(throughputs, THROUGHPUT_R), stride, slot),
         scale3(select3(s.reflects, one, passed), s.weight));

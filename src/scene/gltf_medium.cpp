@@ -66,6 +66,31 @@ class MediumReader {
         return false;
     }
 
+    // Members of the scattering extensions that mean nothing here.
+    std::vector<std::string> unknown_members() const {
+        std::vector<std::string> unknown;
+        if (has_extras()) return unknown;
+        for (const char* name : scatter_extensions) {
+            const auto* extension = find_extension(source_.extensions, name);
+            if (extension == nullptr) continue;
+            for (const std::string& key : extension->Keys())
+                if (std::ranges::find(albedo_spellings, key) == std::end(albedo_spellings) &&
+                    key != "scatterAnisotropy" && key != "scatterStrengthFactor" &&
+                    !key.ends_with("Texture") && key != "extras" && key != "extensions")
+                    unknown.push_back(fmt::format("{}.{}", name, one_line(key)));
+        }
+        return unknown;
+    }
+
+    // What keeps the material from enclosing the medium of its extras; nothing if nothing does.
+    std::string missing_for_extras(const Material& material) const {
+        if (!(transmission() >= 1)) return "KHR_materials_transmission with transmissionFactor 1";
+        if (!(thickness() > 0)) return "KHR_materials_volume with thicknessFactor above 0";
+        if (material.metallic > 0) return "metallicFactor 0";
+        if (material.ior < 1) return "an ior of 1 or more";
+        return material.unlit ? "no KHR_materials_unlit" : "";
+    }
+
     template <typename... Args>
     [[noreturn]] void fail(fmt::format_string<Args...> message, Args&&... args) const {
         file_.fail(where_, message, std::forward<Args>(args)...);
@@ -120,7 +145,9 @@ class MediumReader {
         if (color.size() != 3) fail("{} has {} numbers instead of 3; repair it", key, color.size());
         const double g = number(file_, where_, extension, "scatterAnisotropy", 0);
         if (!(std::abs(g) <= largest_anisotropy))
-            fail("scatterAnisotropy is {}, not between -1 and 1; repair it", g);
+            fail(
+                "scatterAnisotropy is {}, not in -{} .. {}; repair it", g, largest_anisotropy,
+                largest_anisotropy);
         medium.anisotropy = static_cast<float>(g);
         for (std::size_t c = 0; c < 3; ++c) {
             const double rho = strength * color[c];
@@ -178,13 +205,11 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
     const MediumReader reader(file, index);
     const double transmission = reader.transmission();
     const bool is_volume = transmission > 0 && reader.thickness() > 0;
-    const bool lets_rays_in = transmission >= 1 && material.metallic == 0 && material.ior >= 1;
-    if (reader.has_extras() && !(is_volume && lets_rays_in && !material.unlit))
-        reader.fail(
-            "extras.{} needs KHR_materials_transmission with transmissionFactor 1, "
-            "KHR_materials_volume with thicknessFactor above 0, metallicFactor 0, an ior of 1 or "
-            "more, and no KHR_materials_unlit; repair it",
-            extras_key);
+    const std::string missing = reader.missing_for_extras(material);
+    if (reader.has_extras() && !missing.empty())
+        reader.fail("extras.{} needs {}; repair it", extras_key, missing);
+    for (const std::string& name : reader.unknown_members())
+        ignored.add(fmt::format("members {}", name), "rendered as if they were not there");
     if (!is_volume && reader.scatters())
         ignored.add("materials that scatter without a volume", "rendered as if they did not");
     if (!is_volume || material.unlit) return;

@@ -117,25 +117,34 @@ std::vector<Body> bodies_with_media(const Scene& scene, const NormalisedScene& g
     }
     std::vector<Body> found;
     found.reserve(bodies.size());
-    for (auto& [number, body] : bodies) found.push_back(std::move(body));
+    for (auto& [number, body] : bodies)  // of a flattened mesh nothing is left
+        if (!body.triangles.empty()) found.push_back(std::move(body));
     return found;
 }
 
 constexpr int stack_height = 4;  // of MEDIUM_STACK
 
-// Positions are known to 6e-8 of the scene's extent. Returns the warning that a medium is so dense
-// that this is seen (docs/stability.md), or nothing. Throws Error where it is all that is seen.
+// Positions are known to 6e-8 of the scene's extent, and paths end after MAX_SCATTERINGS. Returns
+// the warning that a medium is so dense that either is seen (docs/stability.md), or nothing. Throws
+// Error where rounding is all that is seen.
 std::string warning_of_extinction(const Scene& scene, uint32_t index, double metres) {
     const Material& material = scene.materials[index];
     constexpr double seen = 1e5;  // free paths across the scene
     constexpr double most = 1e6;
+    constexpr double long_paths = 1e5;  // [scatterings]
     const Medium& medium = material.medium;
     if (!medium.scatters()) return {};
     double extinction = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-        extinction = std::max(extinction, double{medium.sigma_a[c]} + double{medium.sigma_s[c]});
+    double scatterings = 0;  // to diffuse through the scene, or to be absorbed
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double sigma_a = medium.sigma_a[c];
+        const double sigma_t = sigma_a + medium.sigma_s[c];
+        extinction = std::max(extinction, sigma_t);
+        const double depth = sigma_t * metres * (1 - std::max(medium.anisotropy, 0.0F));
+        scatterings = std::max(
+            scatterings, sigma_a > 0 ? std::min(depth * depth, sigma_t / sigma_a) : depth * depth);
+    }
     const double free_paths = extinction * metres;
-    if (free_paths <= seen) return {};
     const std::string found = fmt::format(
         "material {} \"{}\": an extinction of {:.3g} per metre makes {:.3g} free paths across the "
         "scene",
@@ -144,7 +153,12 @@ std::string warning_of_extinction(const Scene& scene, uint32_t index, double met
         throw Error(
             "{}: {}, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a",
             scene.name, found, most);
-    return found + ", which single precision renders up to 5 % too dark";
+    if (scatterings > long_paths)
+        return fmt::format(
+            "{}, and next to nothing is absorbed: paths may take {:.0g} scatterings, and long to "
+            "render; raise sigma_a or lower sigma_s",
+            found, scatterings);
+    return free_paths > seen ? found + ", which single precision renders up to 5 % too dark" : "";
 }
 
 Vec3d vertex_of(const Body& body) {
@@ -274,7 +288,12 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
                 "{}: encloses a medium but is not closed; rays that leave by a hole leave the "
                 "medium only when they leave the scene",
                 body.name));
-        else if (body.volume() < -1e-12 && !is_hollow(body, bodies, tables))  // more than rounding
+        else if (std::abs(body.volume()) <= 1e-12)  // what rounding leaves of none
+            tables.warnings.push_back(fmt::format(
+                "{}: bounds a medium but encloses no volume; give it thickness, or take "
+                "KHR_materials_volume away for a thin wall",
+                body.name));
+        else if (body.volume() < 0 && !is_hollow(body, bodies, tables))
             throw Error(
                 "{}: {} is inside out, so that the medium it bounds would fill the space around it "
                 "without end; turn its faces",

@@ -31,6 +31,7 @@ std::string Features::defines() const {
     define("HAS_ENVIRONMENT_MAP", environment_map);
     define("HAS_MEDIA", media);
     define("HAS_DIELECTRICS", dielectrics);
+    define("HAS_CONTACTS", contacts);
     define("ROUGH_DIELECTRICS", rough_dielectrics);
     define("MEDIA_SCATTER", media_scatter);
     text += fmt::format("#define DISTANCES {}\n", static_cast<int>(distances));

@@ -36,7 +36,8 @@ struct Features {
     bool media = false;
     bool media_scatter = false;
     bool dielectrics = false;        // boundaries that refract
-    bool rough_dielectrics = false;  // and by microfacets
+    bool contacts = false;           // and are touched; the renderer's to find out
+    bool rough_dielectrics = false;  // by microfacets
     Distances distances = Distances::exponential;
     bool phase_directions = true;
     uint32_t split_levels = 0;  // vertices that branch; the renderer's to decide

@@ -33,6 +33,7 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
               : 0,
           "path pool"),
       media(device, features.media ? std::size_t{MEDIUM_PLANES} * stride : 0, "path pool"),
+      contacts(device, features.contacts ? std::size_t{CONTACT_PLANES} * stride : 0, "path pool"),
       branches(
           device,
           static_cast<std::size_t>(features.media ? 2 * BRANCH_PLANES : BRANCH_PLANES_SURFACE) *
@@ -50,9 +51,9 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
 
 std::size_t PathPool::bytes() const {
     return rays.bytes() + hits.bytes() + surfaces.bytes() + throughputs.bytes() +
-           radiances.bytes() + shadows.bytes() + media.bytes() + branches.bytes() + ids.bytes() +
-           fates.bytes() + chunk_states.bytes() + holes.bytes() + movers.bytes() +
-           statistics.bytes();
+           radiances.bytes() + shadows.bytes() + media.bytes() + contacts.bytes() +
+           branches.bytes() + ids.bytes() + fates.bytes() + chunk_states.bytes() + holes.bytes() +
+           movers.bytes() + statistics.bytes();
 }
 
 }  // namespace wavepath

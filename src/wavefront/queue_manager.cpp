@@ -37,6 +37,7 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
         names.insert(
             names.end(), {"direct_light", features.media ? "connect_through_media" : "occlusion"});
     if (features.media) names.insert(names.end(), {"sample_distance", "pass_boundary"});
+    if (features.contacts) names.emplace_back("find_contacts");
     if (features.dielectrics) names.emplace_back("refract_boundary");
     if (features.media_scatter) names.emplace_back("scatter_medium");
     names.insert(
@@ -75,6 +76,8 @@ QueueManager::QueueManager(
           features.rays_per_item > 1 ? 1 : groups.traversal,
           profile,
           features.rays_per_item),
+      find_contacts_(stage_if<decltype(find_contacts_)::value_type>(
+          features.contacts, program, "find_contacts", groups.traversal, profile)),
       sample_distance_(stage_if<decltype(sample_distance_)::value_type>(
           features.media, program, "sample_distance", groups.streaming, profile)),
       interact_(program, "interact", groups.streaming, profile),
@@ -136,6 +139,11 @@ bool QueueManager::render(
             device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
             scene_.materials, scene_.textures, pool_.rays, pool_.media, pool_.ids, pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
+        if (find_contacts_)
+            find_contacts_->launch(
+                device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
+                scene_.materials, scene_.textures, pool_.rays, pool_.media, pool_.ids, pool_.hits,
+                pool_.contacts);
         if (sample_distance_)
             sample_distance_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.lights, scene_.media,
@@ -167,7 +175,8 @@ bool QueueManager::render(
             direct_light_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
                 scene_.environment, scene_.media, scene_.textures, pool_.rays, pool_.hits,
-                pool_.surfaces, pool_.throughputs, pool_.ids, pool_.media, pool_.shadows);
+                pool_.surfaces, pool_.throughputs, pool_.ids, pool_.media, pool_.contacts,
+                pool_.shadows);
         if (occlusion_)
             occlusion_->launch(
                 device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
@@ -180,7 +189,8 @@ bool QueueManager::render(
         if (refract_boundary_)
             refract_boundary_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,
-                pool_.surfaces, pool_.rays, pool_.media, pool_.hits, pool_.throughputs, pool_.ids);
+                pool_.surfaces, pool_.contacts, pool_.rays, pool_.media, pool_.hits,
+                pool_.throughputs, pool_.ids);
         sample_indirect_.launch(
             device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays,
             pool_.hits, pool_.throughputs, pool_.ids, pool_.media, pool_.branches);

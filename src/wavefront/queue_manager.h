@@ -137,6 +137,20 @@ class QueueManager {
     std::optional<Stage<
         Params,
         cl_uint,
+        Nodes,
+        Blocks,
+        Floats,
+        Materials,
+        DeviceTextures,
+        Floats,
+        Floats,
+        Uints,
+        Floats,
+        Floats>>
+        find_contacts_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
         Floats,
         Lights,
         Media,
@@ -180,6 +194,7 @@ class QueueManager {
         Floats,
         Floats,
         Floats,
+        Floats,
         Uints>>
         refract_boundary_;
     std::optional<Stage<
@@ -196,6 +211,7 @@ class QueueManager {
         Floats,
         Floats,
         Uints,
+        Floats,
         Floats,
         Floats>>
         direct_light_;

@@ -2,6 +2,7 @@
 
 #include "device/program.h"
 #include "scene/camera.h"
+#include "scene/contacts.h"
 #include "scene/light_guide.h"
 #include "wavefront/sample_plan.h"
 
@@ -91,6 +92,22 @@ std::vector<bool> triangles_with_holes(const Scene& scene, const NormalisedScene
     for (const uint32_t material : geometry.materials)
         holes.push_back(scene.materials[material].alpha_mode != AlphaMode::opaque);
     return holes;
+}
+
+void check_splits(const RenderSettings& settings, bool media_scatter) {
+    const Splits& splits = settings.splits;
+    if (media_scatter && splits.stops > 1 && settings.method.distances == Distances::exponential)
+        throw Error(
+            "--splits with more than one stop: --distance exponential has one or none; choose "
+            "another");
+    constexpr double most = 1e8;
+    const double children =
+        splits.reflections + (media_scatter ? double{1} * splits.stops * splits.directions : 0);
+    const double paths = std::pow(children, settings.split_depth);
+    if (children > 1 && paths > most)
+        throw Error(
+            "--splits {},{},{} --split-depth {}: up to {:.0g} paths a sample; lower them",
+            splits.stops, splits.directions, splits.reflections, settings.split_depth, paths);
 }
 
 // PoCL compiles a kernel at its first launch: one short path through the whole chain, into a film
@@ -184,11 +201,7 @@ RenderResult render(
     const MediaTables media = build_media_tables(scene, geometry);
     result.warnings = media.warnings;
     check_lights(scene, geometry, tables, media, settings.method, result);
-    if (media.scatter && settings.splits.stops > 1 &&
-        settings.method.distances == Distances::exponential)
-        throw Error(
-            "--splits with more than one stop: --distance exponential has one or none; choose "
-            "another");
+    check_splits(settings, media.scatter);
     const TextureTables textures =
         build_texture_tables(scene, worn_materials(scene, geometry), device.info.max_allocation);
     Features features =
@@ -205,6 +218,7 @@ RenderResult render(
     result.times.normalise = watch.lap();
     Bvh bvh = build_bvh(geometry.positions);
     if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
+    features.contacts = features.dielectrics && has_contacts(scene, geometry, bvh);
     result.times.bvh_build = watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
     // for memory together.

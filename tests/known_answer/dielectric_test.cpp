@@ -11,14 +11,6 @@ namespace {
 
 constexpr const char* channels[] = {"R", "G", "B"};
 
-Material glass(double ior, const Medium& medium = {}) {
-    Material material = boundary_of(medium);
-    material.boundary = Boundary::dielectric;
-    material.ior = static_cast<float>(ior);
-    material.roughness = 0;
-    return material;
-}
-
 Scene pane(const Material& material) {
     Scene scene = scene_named("pane");
     add_box(scene, material, {-40, -40, -1}, {40, 40, 0}, Facing::outward);

@@ -5,6 +5,8 @@
 #include "support/images.h"
 #include "support/rendering.h"
 
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -234,14 +236,17 @@ TEST(MediaBoundary, OfFogMayLieCloseToItsLamp) {
         EXPECT_TRUE(agree(lit(gap), apart, {.bias = 0.01, .tests = 3})) << gap;
 }
 
-// Fog that ends at a floor, a little above it, or reaches into it: the floor lies in fog, whichever
-// of the two is met first.
+// Two fogs in one another that end at a floor, a little above it, or reach into it: the floor lies
+// in fog, whichever is met first.
 TEST(MediaBoundary, OfFogMayEndAtAFloor) {
     const auto lit = [](double low, bool floor_first) {
         Scene scene = scene_named("fog on a floor");
         scene.environment = constant_environment(1);
         if (floor_first) add_square(scene, lambert(grey(0.8F)), {0, 0, 0}, {0, 0, 1}, 4);
         add_box(scene, boundary_of(medium_of(1, 0)), {-2, -2, low}, {2, 2, 1}, Facing::outward);
+        add_box(
+            scene, boundary_of(medium_of(0.2, 0)), {-1.9, -1.9, 2 * low}, {1.9, 1.9, 0.5},
+            Facing::outward);
         if (!floor_first) add_square(scene, lambert(grey(0.8F)), {0, 0, 0}, {0, 0, 1}, 4);
         return shared_mean(render_for(
             {.bias = 0.01 / 1.5, .tests = 8}, scene,
@@ -284,6 +289,29 @@ TEST(MediaBoundary, AroundWhatIsDenserThanFloatsTellApartIsRefused) {
     EXPECT_EQ(warnings(1e5, 0.5), warning);
     EXPECT_TRUE(warnings(1e4, 0.5).empty());
     EXPECT_TRUE(warnings(1e8, 0).empty());  // absorbs at once
+    const auto warning_of_long_paths = warnings(1e3, 1);
+    ASSERT_EQ(warning_of_long_paths.size(), 1U);
+    EXPECT_THAT(
+        warning_of_long_paths[0],
+        testing::HasSubstr("next to nothing is absorbed: paths may take 4e+06 scatterings"));
+    EXPECT_TRUE(warnings(1e2, 1).empty());
+}
+
+// Every face twice, one way and the other: closed, but there is no inside.
+TEST(MediaBoundary, AroundNoVolumeIsWarnedOf) {
+    Scene scene = scene_named("sheet");
+    scene.environment = constant_environment(1);
+    Primitive& sheet = add_square(scene, boundary_of(medium_of(1, 0)), {0, 0, 0}, {0, 0, 1}, 1);
+    std::vector<uint32_t>& indices = sheet.indices;
+    for (std::size_t i = indices.size(); i > 0; --i) indices.push_back(indices[i - 1]);
+    sheet.name = "sheet";
+    const RenderResult result =
+        render_scene(scene, square_settings("mis", orthographic({0, 0, 1}, {0, 0, 0}, 0.1), 4, 4));
+    EXPECT_EQ(
+        result.warnings,
+        std::vector<std::string>{"sheet: bounds a medium but encloses no volume; give it "
+                                 "thickness, or take KHR_materials_volume away for a thin wall"});
+    EXPECT_EQ(shared_mean(result).mean, 1);
 }
 
 // A box without its front: one warning, and a ray is in the medium where it met an outer side and

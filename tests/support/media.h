@@ -23,6 +23,15 @@ inline Material boundary_of(const Medium& medium) {
     return material;
 }
 
+// A smooth dielectric.
+inline Material glass(double ior, const Medium& medium = {}) {
+    Material material = boundary_of(medium);
+    material.boundary = Boundary::dielectric;
+    material.ior = static_cast<float>(ior);
+    material.roughness = 0;
+    return material;
+}
+
 // Coefficients of one extinction and an albedo a channel: three media in one render.
 inline Medium medium_of(double sigma_t, const Rgb& albedos, double g = 0) {
     Medium medium = medium_of(sigma_t, 0, g);

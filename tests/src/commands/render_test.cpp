@@ -138,6 +138,9 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --termination depth:x", "--termination depth:x");
     expect_refused(cornell_box + " --splits 2", "--splits 2");
     expect_refused(cornell_box + " --splits 2,0", "--splits 2,0");
+    expect_refused(
+        cornell_box + " --splits 1,1,64 --split-depth 8",
+        "--splits 1,1,64 --split-depth 8: up to 3e+14 paths a sample; lower them");
     expect_refused(cornell_box + " --camera nobody", "--camera nobody");
     expect_refused(cornell_box + " --scene nobody", "--scene nobody");
     expect_refused(cornell_box + " --look-at 0,0,0,0,0,0", "--look-at");

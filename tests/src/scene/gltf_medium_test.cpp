@@ -166,6 +166,15 @@ TEST(GltfMedium, SaysWhichTexturesItDoesNotRead) {
         HasSubstr("textures of what scatters in volumes (1)"));
 }
 
+TEST(GltfMedium, SaysWhichMembersItDoesNotKnow) {
+    Json material = boundary();
+    material["extensions"]["KHR_materials_scatter"] = {
+        {"scatterStrength", 1}, {"multiscatterColorFactor", {1, 1, 1}}};
+    EXPECT_THAT(
+        load(file_with(material)).ignored,
+        ElementsAre(HasSubstr("members KHR_materials_scatter.scatterStrength")));
+}
+
 TEST(GltfMedium, IsBoundedWithoutAlpha) {
     for (const char* mode : {"MASK", "BLEND"}) {
         Json material = boundary();
@@ -186,18 +195,27 @@ TEST(GltfMedium, RefusesWhatMeansNothing) {
     EXPECT_THAT(refusal(with_extras(1)), HasSubstr("not an object"));
     Json material = with_extras({{"sigma_a", {1, 1, 1}}});
     material["extensions"].erase("KHR_materials_volume");
-    EXPECT_THAT(refusal(material), HasSubstr("needs KHR_materials_transmission"));
-    const std::pair<const char*, Json> conflicts[] = {
-        {"/extensions/KHR_materials_transmission/transmissionFactor", 0.5},
-        {"/extensions/KHR_materials_ior/ior", 0},
-        {"/extensions/KHR_materials_unlit", Json::object()},
-        {"/pbrMetallicRoughness/metallicFactor", 1},
+    EXPECT_THAT(refusal(material), HasSubstr("needs KHR_materials_volume with thicknessFactor"));
+    struct Conflict {
+        const char* path;
+        Json value;
+        const char* line;
     };
-    for (const auto& [path, value] : conflicts) {
+    const Conflict conflicts[] = {
+        {"/extensions/KHR_materials_transmission/transmissionFactor", 0.5,
+         "needs KHR_materials_transmission with transmissionFactor 1;"},
+        {"/extensions/KHR_materials_ior/ior", 0, "needs an ior of 1 or more;"},
+        {"/extensions/KHR_materials_unlit", Json::object(), "needs no KHR_materials_unlit;"},
+        {"/pbrMetallicRoughness/metallicFactor", 1, "needs metallicFactor 0;"},
+    };
+    for (const auto& [path, value, line] : conflicts) {
         material = with_extras({{"sigma_a", {1, 1, 1}}});
         material[Json::json_pointer(path)] = value;
-        EXPECT_THAT(refusal(material), HasSubstr("needs KHR_materials_transmission")) << path;
+        EXPECT_THAT(refusal(material), HasSubstr(line)) << path;
     }
+    material = boundary();
+    material["extensions"]["KHR_materials_scatter"]["scatterAnisotropy"] = 1;
+    EXPECT_THAT(refusal(material), HasSubstr("scatterAnisotropy is 1, not in -0.99999 .. 0.99999"));
     material = boundary();
     material["emissiveFactor"] = {1, 1, 1};
     EXPECT_THAT(refusal(material), HasSubstr("ior 1 and emits"));

@@ -1,0 +1,103 @@
+#include "scene/contacts.h"
+
+#include "scene/transform.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace wavepath {
+namespace {
+
+constexpr double touching = 0x1p-19;  // twice RAY_OFFSET, for rounding
+constexpr double most_sine = 0.01;
+
+struct Triangle {
+    std::array<Vec3d, 3> corners;
+    Vec3d normal;  // unit
+    Vec3d low, high;
+};
+
+Triangle triangle_at(const NormalisedScene& geometry, std::size_t index) {
+    Triangle t;
+    for (std::size_t k = 0; k < 3; ++k) t.corners[k] = vec3_at(geometry.positions, 3 * index + k);
+    t.normal =
+        normalized(cross(minus(t.corners[1], t.corners[0]), minus(t.corners[2], t.corners[0])));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [low, high] =
+            std::minmax({t.corners[0][axis], t.corners[1][axis], t.corners[2][axis]});
+        t.low[axis] = low - touching;
+        t.high[axis] = high + touching;
+    }
+    return t;
+}
+
+bool touches(const Triangle& a, const Triangle& b) {
+    const Vec3d sine = cross(a.normal, b.normal);
+    if (dot(sine, sine) > most_sine * most_sine) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (a.low[axis] > b.high[axis] || b.low[axis] > a.high[axis]) return false;
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = -nearest;
+    for (const Vec3d& corner : b.corners) {
+        const double height = dot(a.normal, minus(corner, a.corners[0]));
+        nearest = std::min(nearest, height);
+        farthest = std::max(farthest, height);
+    }
+    return nearest <= touching && farthest >= -touching;
+}
+
+// Calls `visit` with every triangle whose leaf's box meets that of `t`, until it says true.
+template <typename Visit>
+bool any_near(const Bvh& bvh, const Triangle& t, const Visit& visit) {
+    std::vector<uint32_t> waiting{0};
+    while (!waiting.empty()) {
+        const uint32_t current = waiting.back();
+        waiting.pop_back();
+        if ((current & BVH_LEAF) != 0) {
+            for (const uint32_t entry : bvh.blocks[current & ~BVH_LEAF].primitives)
+                if (entry != BVH_EMPTY && visit(entry & ~BVH_HOLES)) return true;
+            continue;
+        }
+        const BvhNode& node = bvh.nodes[current];
+        for (std::size_t k = 0; k < 8; ++k) {
+            bool meets = node.children[k] != BVH_EMPTY;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                meets = meets && double{node.bounds[axis][0][k]} <= t.high[axis] &&
+                        double{node.bounds[axis][1][k]} >= t.low[axis];
+            if (meets) waiting.push_back(node.children[k]);
+        }
+    }
+    return false;
+}
+
+std::vector<uint32_t> bodies_of_triangles(const Scene& scene, const NormalisedScene& geometry) {
+    std::vector<uint32_t> bodies;
+    bodies.reserve(geometry.triangle_count());
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        bodies.resize(geometry.ends[i], scene.instances[i].body);
+    return bodies;
+}
+
+}  // namespace
+
+bool has_contacts(const Scene& scene, const NormalisedScene& geometry, const Bvh& bvh) {
+    const std::vector<uint32_t> bodies = bodies_of_triangles(scene, geometry);
+    for (std::size_t t = 0; t < geometry.triangle_count(); ++t) {
+        if (scene.materials[geometry.materials[t]].boundary != Boundary::dielectric) continue;
+        const Triangle face = triangle_at(geometry, t);
+        const bool touched = any_near(bvh, face, [&](std::size_t other) {
+            const Material& material = scene.materials[geometry.materials[other]];
+            if (material.boundary == Boundary::opaque && material.transmission > 0) return false;
+            const Triangle near = triangle_at(geometry, other);
+            // a body's own faces go on in one another, but may lie back to back
+            if (bodies[other] == bodies[t] && dot(near.normal, face.normal) > 0) return false;
+            return touches(face, near);
+        });
+        if (touched) return true;
+    }
+    return false;
+}
+
+}  // namespace wavepath

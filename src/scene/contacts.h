@@ -1,0 +1,15 @@
+// Where surfaces touch glass.
+#pragma once
+
+#include "scene/bvh_builder.h"
+#include "scene/normalise.h"
+#include "scene/scene.h"
+
+namespace wavepath {
+
+// Whether some triangle of another surface lies within RAY_OFFSET of a dielectric boundary's and
+// along it: a glass on a table, a liquid in a glass. Says yes rather than no. Faces that cross at
+// more than half a degree do not count: they are that close on a line alone.
+bool has_contacts(const Scene& scene, const NormalisedScene& geometry, const Bvh& bvh);
+
+}  // namespace wavepath

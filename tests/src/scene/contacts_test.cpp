@@ -1,0 +1,57 @@
+#include "scene/contacts.h"
+
+#include "support/media.h"
+
+#include <gtest/gtest.h>
+
+namespace wavepath {
+namespace {
+
+bool touched(const Scene& scene) {
+    const NormalisedScene geometry = normalise(scene);
+    return has_contacts(scene, geometry, build_bvh(geometry.positions));
+}
+
+Scene block_on(double floor, const Material& material = glass(1.5)) {
+    Scene scene = scene_named("block");
+    add_box(scene, material, {-1, -1, 0}, {1, 1, 1}, Facing::outward);
+    add_square(scene, lambert(grey(0.5F)), {0, 0, floor}, {0, 0, 1}, 4);
+    return scene;
+}
+
+TEST(Contacts, AreFoundWhereFacesLieOnOneAnother) {
+    EXPECT_TRUE(touched(block_on(0)));
+    EXPECT_TRUE(touched(block_on(3e-6)));
+    EXPECT_TRUE(touched(block_on(-3e-6)));
+    EXPECT_FALSE(touched(block_on(-1e-4)));
+    EXPECT_FALSE(touched(block_on(0.5))) << "faces that cross";
+    EXPECT_FALSE(touched(block_on(0, boundary_of({})))) << "nothing refracts";
+    Scene besides = block_on(0);
+    besides.instances[1].to_world[12] = 3.5;
+    EXPECT_FALSE(touched(besides)) << "in one plane, but apart";
+    Scene curtain = block_on(0);
+    curtain.materials.back().transmission = 1;
+    EXPECT_FALSE(touched(curtain)) << "thin walls do not count";
+}
+
+TEST(Contacts, OfABodyWithItselfAreBackToBack) {
+    Scene scene = scene_named("bodies");
+    add_box(scene, glass(1.5), {-1, -1, 0}, {1, 1, 1}, Facing::outward);
+    EXPECT_FALSE(touched(scene));
+    add_box(scene, glass(1.33), {-1, -1, 1}, {1, 1, 2}, Facing::outward);
+    EXPECT_TRUE(touched(scene));
+    scene.instances[1].body = scene.instances[0].body;
+    EXPECT_TRUE(touched(scene));
+}
+
+TEST(Contacts, AreFoundInLargeMeshes) {
+    Scene scene = scene_named("spheres");
+    add_icosphere(scene, glass(1.5), {0, 0, 0}, 1, 5);
+    add_icosphere(scene, glass(1.33), {0, 0, 0}, 0.99, 5);
+    EXPECT_FALSE(touched(scene));
+    add_icosphere(scene, glass(1.33), {0, 0, 0}, 1, 5);
+    EXPECT_TRUE(touched(scene));
+}
+
+}  // namespace
+}  // namespace wavepath
