@@ -48,14 +48,8 @@ kernel void connect_through_media(
             t_max, start, holes_in(&cover));
         global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * max(hit.primitive, 0);
         global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
-        int arrives = hit.primitive < 0 || hit.t >= t_max;
-        if (!arrives && material->boundary < BOUNDARY_INDEX_MATCHED) {
-            // glass that touches the light: paths meet the light in its place (find_contacts)
-            arrives = HAS_CONTACTS && material->boundary == BOUNDARY_DIELECTRIC &&
-                      (t_max - hit.t) * length <=
-                          touching_distance(triangle, scale3(direction, 1.0f / length));
-            if (!arrives) return;
-        }
+        const int arrives = hit.primitive < 0 || hit.t >= t_max;
+        if (!arrives && material->boundary < BOUNDARY_INDEX_MATCHED) return;
         const uint innermost = innermost_medium(stack);
         if (innermost > 0)
             tau = madd3(

@@ -161,8 +161,14 @@ void for_each_sparse_row(
     const Rows rows = find_rows(
         file, values.bufferView, checked_sparse_offset(file, values.byteOffset, where), replaced,
         row_size, where);
+    std::uint32_t next = 0;
     for (std::size_t i = 0; i < replaced; ++i) {
         const std::uint32_t target = load_index(targets[i], indices.componentType);
+        if (target < next)
+            file.fail(
+                where, "sparse index {} does not follow the one before it in order; export again",
+                target);
+        next = target + 1;
         if (target >= accessor.count)
             file.fail(
                 where, "sparse index {} is not below the count {}; repair it or export again",

@@ -11,6 +11,7 @@ namespace {
 
 // By so much factors may pass the ends of their range that were rounded on their way to the file.
 constexpr double rounding = 1e-6;
+constexpr double steepest = 1e6;  // of normal maps: its square is a float
 constexpr double unbounded = std::numeric_limits<float>::max();
 
 class MaterialReader {
@@ -42,7 +43,7 @@ class MaterialReader {
     float factor(const char* name, double value, double most, double least = 0) const {
         if (!(value >= least - rounding && value <= most + rounding))
             file_.fail(
-                where_, "{} is {}, not in {} .. {:g}; repair the material", name, value, least,
+                where_, "{} is {}, not in {:g} .. {:g}; repair the material", name, value, least,
                 most);
         return static_cast<float>(std::clamp(value, least, most));
     }
@@ -107,13 +108,13 @@ class MaterialReader {
 
     void read_textures(Material& material) const {
         const auto& pbr = source_.pbrMetallicRoughness;
+        material.normal_scale =
+            factor("normalTexture.scale", source_.normalTexture.scale, steepest, -steepest);
         TextureReader reader(file_, where_, material);
         reader.read(TEXTURE_BASE_COLOR, pbr.baseColorTexture);
         reader.read(TEXTURE_METALLIC_ROUGHNESS, pbr.metallicRoughnessTexture);
         reader.read(TEXTURE_NORMAL, source_.normalTexture);
         reader.read(TEXTURE_EMISSION, source_.emissiveTexture);
-        material.normal_scale =
-            factor("normalTexture.scale", source_.normalTexture.scale, unbounded, -unbounded);
         if (const auto* extension = find_extension(source_.extensions, "KHR_materials_specular")) {
             reader.read(TEXTURE_SPECULAR, *extension, "specularTexture");
             reader.read(TEXTURE_SPECULAR_COLOR, *extension, "specularColorTexture");

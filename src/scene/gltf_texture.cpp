@@ -116,7 +116,10 @@ void TextureReader::read_sampler(int index, Texture& texture) const {
     const std::string where = label("sampler", index, sampler.name);
     texture.wrap_s = wrap_of(file_, where, sampler.wrapS);
     texture.wrap_t = wrap_of(file_, where, sampler.wrapT);
+    const bool linear = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_LINEAR;
     texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    if (sampler.magFilter != -1 && !linear && !texture.nearest)
+        file_.fail(where, "magFilter {} is unknown; use 9728 or 9729", sampler.magFilter);
 }
 
 uint32_t TextureReader::place_of_uv_set(int set) {

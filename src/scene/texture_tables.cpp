@@ -121,7 +121,8 @@ TextureTables build_texture_tables(
             std::min<uint64_t>(page_bytes / sizeof(cl_uint), std::numeric_limits<uint32_t>::max());
     if (tables.pages() > TEXTURE_MOST_PAGES || tables.words > std::numeric_limits<uint32_t>::max())
         throw Error(
-            "{}: textures take {} MiB, the device holds {}; shrink them, or use another --device",
+            "{}: textures take {} MiB, the device holds {} MiB; shrink them, or use another "
+            "--device",
             scene.name, tables.words >> 18U, TEXTURE_MOST_PAGES * page_bytes >> 20U);
 
     for (const Material& material : scene.materials)

@@ -4,7 +4,7 @@
 //
 // Every file must load, or be refused in one line that ends in what to do. Anything else, another
 // exception, a crash, a sanitizer's report or 20 s of work without an answer, leaves the file in
-// ./gltf_fuzz and ends the program. Build it with the preset `asan`.
+// ./gltf_fuzz_case and ends the program. Build it with the preset `asan`.
 #include "error.h"
 #include "scene/bvh_builder.h"
 #include "scene/gltf_loader.h"
@@ -283,7 +283,7 @@ void load(const fs::path& path, Tally& tally) {
 
 int fuzz(const fs::path& assets, double seconds, std::uint32_t number) {
     const std::vector<Seed> seeds = find_seeds(assets);
-    const fs::path folder = fs::current_path() / "gltf_fuzz";
+    const fs::path folder = fs::current_path() / "gltf_fuzz_case";
     const auto start = std::chrono::steady_clock::now();
     const auto elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

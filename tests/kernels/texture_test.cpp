@@ -53,7 +53,6 @@ struct TestTexture {
     double most = 255;
 
     TestTexture(uint32_t width, uint32_t height, cl_uint flags) {
-        row.first_word = 256;
         row.width = width;
         row.height = height;
         row.flags = flags;
@@ -62,6 +61,11 @@ struct TestTexture {
         for (int code = 0; code < 256; ++code)
             words.push_back(
                 std::bit_cast<cl_uint>(static_cast<float>(linear_of_srgb(code / 255.0))));
+        if (wide && (flags & TEXTURE_SRGB) != 0)
+            for (int code = 0; code < 65536; ++code)
+                words.push_back(
+                    std::bit_cast<cl_uint>(static_cast<float>(linear_of_srgb(code / 65535.0))));
+        row.first_word = static_cast<cl_uint>(words.size());
         std::mt19937 random(width * 7 + height);
         for (uint32_t i = 0; i < width * height; ++i) {
             std::array<uint32_t, 4> c;
@@ -118,9 +122,11 @@ struct TestTexture {
         const std::size_t count = places.size() / 2;
         const auto whole = one_page().run<cl_float>(
             "lookups", count, 4 * count, rows, words, rest, rest, rest, places);
-        const auto paged = two_pages().run<cl_float>(
-            "lookups", count, 4 * count, rows, words, second, rest, rest, places);
-        EXPECT_EQ(whole, paged);
+        if (words.size() <= 2 * page_words) {
+            const auto paged = two_pages().run<cl_float>(
+                "lookups", count, 4 * count, rows, words, second, rest, rest, places);
+            EXPECT_EQ(whole, paged);
+        }
         for (std::size_t i = 0; i < 4 * count; ++i)
             ASSERT_NEAR(
                 whole[i],
@@ -164,6 +170,7 @@ TEST(Texture, DecodesTheSrgbCurveBeforeItFilters) {
 
 TEST(Texture, KeepsSixteenBits) {
     TestTexture(16, 8, TEXTURE_16_BITS).check(lattice(1.0 / 64));
+    TestTexture(16, 8, TEXTURE_16_BITS | TEXTURE_SRGB).check(lattice(1.0 / 64));
 }
 
 TEST(Texture, WithoutAnImageIsWhite) {

@@ -2,6 +2,10 @@
 #include "scene/tangents.h"
 #include "support/textured_scenes.h"
 
+#include <gmock/gmock.h>
+
+#include <array>
+
 namespace wavepath {
 namespace {
 
@@ -44,23 +48,79 @@ TEST(NormalMaps, OfTheMiddleChangeNothing) {
         }
 }
 
-// (1, 0.5, 0.5) tilts all the way to the tangent: a plate whose u runs along x sees +x; v runs
-// down.
-TEST(NormalMaps, TiltAlongUAndUp) {
-    const auto tilted = [](double r, double g, double b) {
-        Scene scene = scene_named("tilted");
-        Primitive& plate = add_plate(scene, lambert(grey(1)));
-        add_texture(scene, scene.materials[0], TEXTURE_NORMAL, texel_image(r, g, b));
-        plate.tangents = derive_tangents(plate, plate.uvs[0]);
-        scene.environment = constant_environment(1);
-        return render_scene(scene, depth_limited(above(1), 2, 1, 0)).film.image.channels;
+// Normals of a plate whose u runs along x and v down, under a map of one texel.
+std::array<double, 3> mapped(
+    const std::array<double, 3>& texel, const Vec3d& scale = {1, 1, 1}, double eye = 3) {
+    Scene scene = scene_named("tilted");
+    Primitive& plate = add_plate(scene, lambert(grey(1)));
+    add_texture(
+        scene, scene.materials[0], TEXTURE_NORMAL, texel_image(texel[0], texel[1], texel[2]));
+    plate.tangents = derive_tangents(plate, plate.uvs[0]);
+    for (std::size_t k = 0; k < 3; ++k) scene.instances[0].to_world[5 * k] = scale[k];
+    scene.environment = constant_environment(1);
+    const Camera camera = orthographic({0, 0, eye}, {0, 0, 0}, 1);
+    const RenderResult result = render_scene(scene, depth_limited(camera, 2, 1, 0));
+    const auto channel = [&](const char* name) {
+        return double{result.film.image.channels.at(name)[0]};
     };
-    auto right = tilted(0.8, 0.5, 0.9);
-    EXPECT_NEAR(right.at("normal.X")[0], 0.6, 1e-4);
-    EXPECT_NEAR(right.at("normal.Y")[0], 0, 1e-4);
-    EXPECT_NEAR(right.at("normal.Z")[0], 0.8, 1e-4);
-    auto up = tilted(0.5, 0.8, 0.9);
-    EXPECT_NEAR(up.at("normal.Y")[0], 0.6, 1e-4);
+    return {channel("normal.X"), channel("normal.Y"), channel("normal.Z")};
+}
+
+auto near(double x, double y, double z) {
+    constexpr double off = 1e-4;
+    return testing::ElementsAre(
+        testing::DoubleNear(x, off), testing::DoubleNear(y, off), testing::DoubleNear(z, off));
+}
+
+constexpr std::array<double, 3> right{0.8, 0.5, 0.9};  // (.6, 0, .8)
+constexpr std::array<double, 3> up{0.5, 0.8, 0.9};     // (0, .6, .8)
+
+TEST(NormalMaps, TiltAlongUAndUp) {
+    EXPECT_THAT(mapped(right), near(0.6, 0, 0.8));
+    EXPECT_THAT(mapped(up), near(0, 0.6, 0.8));
+}
+
+// What is painted on a plate turns with it, mirrored or not.
+TEST(NormalMaps, AreMirroredWithTheirNodes) {
+    EXPECT_THAT(mapped(right, {-1, 1, 1}), near(-0.6, 0, 0.8));
+    EXPECT_THAT(mapped(up, {-1, 1, 1}), near(0, 0.6, 0.8));
+    EXPECT_THAT(mapped(right, {1, -1, 1}), near(0.6, 0, 0.8));
+    EXPECT_THAT(mapped(up, {1, -1, 1}), near(0, -0.6, 0.8));
+    EXPECT_THAT(mapped(up, {-1, -1, 1}), near(0, -0.6, 0.8));
+}
+
+// A back's normal is the front's, turned round [glTF 2.0, section 3.9.5].
+TEST(NormalMaps, OfTheBackAreTheFrontsTurnedRound) {
+    EXPECT_THAT(mapped(right, {1, 1, 1}, -3), near(-0.6, 0, -0.8));
+    EXPECT_THAT(mapped(up, {1, 1, 1}, -3), near(0, -0.6, -0.8));
+}
+
+// A mirror under a map shows the whole sky, folded back where a normal would send it through.
+TEST(NormalMaps, OfMirrorsKeepTheFurnaceWhite) {
+    RenderSettings settings =
+        square_settings("mis", orthographic({0, 0, 3}, {0, 0, 0}, 1.2), 64, 4);
+    settings.termination = {TerminationKind::depth, 1, 1};
+    const RenderResult result =
+        render_scene(bumpy_sphere(metal(grey(1), 0), steep_bumps()), settings);
+    EXPECT_NEAR(shared_mean(result).mean, 1, 1e-5);
+}
+
+// Lobes of metal under maps: one picture by directions of the bsdf and by points on a lamp.
+TEST(NormalMaps, OfMetalAreTheSameInEveryMethod) {
+    for (const float roughness : {0.3F, 1.0F}) {
+        SCOPED_TRACE(roughness);
+        Scene scene = bumpy_sphere(metal(grey(1), roughness), steep_bumps());
+        scene.environment.reset();
+        add_square(scene, lambert(grey(0), grey(1)), {1, 1, 3}, {-1, -1, -3}, 4);
+        const auto mean = [&](const char* method) {
+            RenderSettings settings =
+                square_settings(method, orthographic({0, 0, 2}, {0, 0, 0}, 1.2), 32, 16);
+            settings.termination = {TerminationKind::depth, 1, 1};
+            return image_mean(render_for({.bias = 0.01 / 1.5, .tests = 2}, scene, settings));
+        };
+        const char* other = roughness < 1 ? "bsdf" : "direct";  // whose noise is less
+        EXPECT_TRUE(agree(mean("mis"), mean(other), {.bias = 0.01, .tests = 2}));
+    }
 }
 
 }  // namespace

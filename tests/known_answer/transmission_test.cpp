@@ -60,7 +60,8 @@ TEST(Transmission, OfRoughWallsIsTheSameInEveryMethod) {
     }
 }
 
-// None of it: the same bits as a material without.
+// None of it: what a material without shows. Not the same bits: the kernels are others, and
+// contract other products.
 TEST(Transmission, OfZeroChangesNothing) {
     Scene scene = wall(grey(0.8F), 0.4F, 0);
     add_square(scene, lambert(grey(0), grey(1)), {0, 0, 1}, {0, 0, -1}, 0.8);

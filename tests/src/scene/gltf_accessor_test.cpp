@@ -215,6 +215,13 @@ constexpr Broken broken_accessors[] = {
          root["accessors"][0]["sparse"]["indices"]["byteOffset"] = 12;
      },
      "sparse index 16256 is not below the count 3"},
+    {"sparse_indices_unsorted",
+     [](Json& root) {  // 0x0000 twice
+         root["accessors"][0]["sparse"]["count"] = 2;
+         root["accessors"][0]["sparse"]["indices"]["bufferView"] = 0;
+         root["accessors"][0]["sparse"]["indices"]["byteOffset"] = 0;
+     },
+     "sparse index 0 does not follow the one before it"},
 };
 
 INSTANTIATE_TEST_SUITE_P(

@@ -115,6 +115,9 @@ TEST(GltfMaterial, RejectsFactorsOutOfRange) {
         error({{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0}}}}}),
         HasSubstr("must be 4, but got 3"));
     EXPECT_THAT(error({{"emissiveFactor", {0, -1, 0}}}), HasSubstr("is -1, not in 0 .. "));
+    EXPECT_THAT(
+        error({{"normalTexture", {{"index", 0}, {"scale", 1e20}}}}),
+        HasSubstr("normalTexture.scale is 1e+20, not in -1e+06 .. 1e+06"));
     EXPECT_THAT(error({{"emissiveFactor", {0, 1}}}), HasSubstr("must be 3, but got 2"));
     EXPECT_EQ(
         error(extension("KHR_materials_ior", {{"ior", 0.9}})),

@@ -135,7 +135,6 @@ TEST(GltfTexture, ReadsSamplers) {
     EXPECT_TRUE(texture.nearest);
 }
 
-// A quarter turn counter-clockwise in a plane whose v points down takes (1, 0) to (0, -1).
 TEST(GltfTexture, RefusesTransformsBeyondFloats) {
     for (const char* key : {"scale", "offset"})
         EXPECT_THAT(
@@ -145,6 +144,7 @@ TEST(GltfTexture, RefusesTransformsBeyondFloats) {
             HasSubstr("not a pair of numbers"));
 }
 
+// A quarter turn counter-clockwise in a plane whose v points down takes (1, 0) to (0, -1).
 TEST(GltfTexture, TransformsCoordinates) {
     const Json transform{
         {"offset", {0.5, 0.25}},
@@ -227,6 +227,8 @@ TEST(GltfTexture, SaysWhatIsWrongWithAReference) {
     GltfBuilder gltf = textured(plain_info, image, {{"source", 0}, {"sampler", 0}});
     gltf.root["samplers"] = {{{"wrapS", 5}}};
     EXPECT_THAT(load_error(gltf), HasSubstr("sampler 0: wrap mode 5 is unknown"));
+    gltf.root["samplers"] = {{{"magFilter", 3}}};
+    EXPECT_THAT(load_error(gltf), HasSubstr("sampler 0: magFilter 3 is unknown"));
 }
 
 TEST(GltfTexture, NotesMissingCoordinates) {
