@@ -1,5 +1,5 @@
-// Files as people have them, sound and broken: a folder of sample models and malformed files beside
-// the checkout, or named by WAVEPATH_ASSETS.
+// Files as people have them, sound and broken.
+#include "support/sample_files.h"
 #include "scene/camera.h"
 #include "scene/gltf_loader.h"
 #include "scene/normalise.h"
@@ -22,14 +22,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-// The folder of test assets, or an empty path.
-fs::path asset_folder() {
-    const char* named = std::getenv("WAVEPATH_ASSETS");
-    const fs::path folder =
-        named ? fs::path(named) : fs::path(WAVEPATH_SOURCE_DIR) / ".." / "shared" / "assets";
-    return fs::is_directory(folder) ? folder : fs::path();
-}
 
 // Triangle counts by file from the table "| models/a/b.glb | ... | ... | 12 (6 unique) | ..." of
 // INDEX.md.
