@@ -230,6 +230,8 @@ TEST(Textures, AreTheSameInOnePageAndInThree) {
     const RenderResult paged = render(small, scene, settings);
     EXPECT_EQ(whole.texture_pages, 1U);
     EXPECT_EQ(paged.texture_pages, 3U);
+    EXPECT_GT(whole.texture_bytes, 1U << 20U);
+    EXPECT_LT(whole.texture_bytes, 1100U << 10U);
     expect_same_bits(whole, paged);
 }
 

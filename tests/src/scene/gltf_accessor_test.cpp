@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
 #include <limits>
 
 namespace wavepath {
@@ -105,6 +106,21 @@ TEST(GltfAccessor, ReplacesSparseRows) {
     EXPECT_THAT(
         load_positions(gltf, positions).primitives.at(0).positions,
         ElementsAre(7, 8, 9, 1, 0, 0, 4, 5, 6));
+}
+
+// Not allowed, but nothing is lost by reading them.
+TEST(GltfAccessor, ReadsRowsAtOddOffsets) {
+    GltfBuilder gltf;
+    const std::vector<float> corners{1, 2, 3, 4, 5, 6, 7, 9, 8};
+    std::vector<std::uint8_t> bytes(1 + corners.size() * sizeof(float));
+    std::memcpy(&bytes[1], corners.data(), corners.size() * sizeof(float));
+    const int positions = gltf.accessor<std::uint8_t>("SCALAR", bytes);
+    Json& accessor = gltf.root["accessors"][static_cast<std::size_t>(positions)];
+    accessor["type"] = "VEC3";
+    accessor["componentType"] = 5126;
+    accessor["byteOffset"] = 1;
+    accessor["count"] = 3;
+    EXPECT_EQ(load_positions(gltf, positions).primitives.at(0).positions, corners);
 }
 
 TEST(GltfAccessor, IsZeroWhereSparseRowsHaveNoBase) {

@@ -202,6 +202,24 @@ TEST(GltfMesh, MorphsColorsBeforeClampingThem) {
     EXPECT_THAT(load(gltf).primitives.at(0).colors, ElementsAre(1, 0, 1, 0, 0, 0, 1, 1, 0.5F));
 }
 
+// The material that the primitive names, whatever the variants' mappings offer.
+TEST(GltfMesh, WearsTheDefaultOfItsVariants) {
+    GltfBuilder gltf;
+    gltf.add("materials", {{"name", "first"}});
+    gltf.add("materials", {{"name", "default"}});
+    gltf.root["extensionsUsed"] = {"KHR_materials_variants"};
+    gltf.root["extensionsRequired"] = gltf.root["extensionsUsed"];
+    gltf.root["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}};
+    gltf.object(
+        {{"attributes", {{"POSITION", gltf.triangle_positions()}}},
+         {"material", 1},
+         {"extensions",
+          {{"KHR_materials_variants", {{"mappings", {{{"material", 0}, {"variants", {0}}}}}}}}}});
+    const Scene scene = load(gltf);
+    EXPECT_EQ(scene.materials.at(scene.primitives.at(0).material).name, "default");
+    EXPECT_TRUE(scene.ignored.empty());
+}
+
 TEST(GltfMesh, RejectsBrokenMorphTargets) {
     const auto error = [](const Json& weights, const auto& breaks) {
         GltfBuilder gltf;
