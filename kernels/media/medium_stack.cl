@@ -61,9 +61,20 @@ INLINE void go_on_behind(
     [slot] = as_float(as_uint(PLANE(path_media, MEDIUM_PASSES)[slot]) + 1);
 }
 
+// Of the innermost medium that has one of its own: what is within an index-matched boundary has
+// that of its surroundings.
 INLINE float refractive_index(global const DeviceMedium* media, const uint stack) {
-    const uint innermost = innermost_medium(stack);
-    return innermost > 0 ? media[(int)max(innermost, 1u) - 1].ior : 1.0f;
+    if (!HAS_MATCHED_MEDIA) {
+        const uint innermost = innermost_medium(stack);
+        return innermost > 0 ? media[(int)max(innermost, 1u) - 1].ior : 1.0f;
+    }
+    float index = 1.0f;
+    for (uint shift = 32; shift > 0; shift -= 8) {
+        const uint row = stack >> (shift - 8) & 255u;
+        const float ior = media[(int)max(row, 1u) - 1].ior;
+        index = ((row > 0) & (ior > 0.0f)) ? ior : index;
+    }
+    return index;
 }
 
 // 1; NaN where more media lie around one another than the stack holds, to be found and counted.

@@ -56,6 +56,9 @@
 #ifndef HAS_DIELECTRICS
 #define HAS_DIELECTRICS 1  // some boundary refracts
 #endif
+#ifndef HAS_MATCHED_MEDIA
+#define HAS_MATCHED_MEDIA 1  // some medium has the index of what is around it
+#endif
 #ifndef HAS_CONTACTS
 #define HAS_CONTACTS 1  // something touches such a boundary
 #endif

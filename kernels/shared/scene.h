@@ -41,7 +41,7 @@ typedef struct {
     shared_float sigma_t_g;
     shared_float sigma_s_g;
     shared_float emission_g;
-    shared_float ior;  // [1] refractive index; 1 within an index-matched boundary
+    shared_float ior;  // [1] refractive index; 0, within an index-matched boundary: that around it
     shared_float sigma_t_b;
     shared_float sigma_s_b;
     shared_float emission_b;

@@ -78,14 +78,54 @@ struct Body {
     }
 
     // Every edge is run through as often one way as the other.
-    bool is_closed() const {
+    bool is_closed() const { return is_closed_but_for(Exact{}) || is_closed_but_for(Welded{}); }
+
+  private:
+    struct Exact {
+        const Point& operator()(const Point& p) const { return p; }
+    };
+
+    // Exporters round a corner differently in each of its triangles: those closer than 2^-21 are
+    // one.
+    class Welded {
+      public:
+        const Point& operator()(const Point& p) {
+            constexpr double cells = 0x1p20;
+            Cell cell;
+            for (std::size_t k = 0; k < 3; ++k) cell[k] = std::lround(cells * p[k]);
+            for (long x = -1; x <= 1; ++x)
+                for (long y = -1; y <= 1; ++y)
+                    for (long z = -1; z <= 1; ++z) {
+                        const auto found = corners_.find({cell[0] + x, cell[1] + y, cell[2] + z});
+                        if (found != corners_.end() && is_near(found->second, p))
+                            return found->second;
+                    }
+            return corners_.emplace(cell, p).first->second;
+        }
+
+      private:
+        using Cell = std::array<long, 3>;
+
+        static bool is_near(const Point& a, const Point& b) {
+            constexpr float apart = 0x1p-21F;
+            return std::abs(a[0] - b[0]) < apart && std::abs(a[1] - b[1]) < apart &&
+                   std::abs(a[2] - b[2]) < apart;
+        }
+
+        std::map<Cell, Point> corners_;
+    };
+
+    template <typename Weld>
+    bool is_closed_but_for(Weld weld) const {
         std::map<std::pair<Point, Point>, int> edges;
-        for (const auto& t : triangles)
+        for (const auto& t : triangles) {
+            const Point corners[3] = {weld(t[0]), weld(t[1]), weld(t[2])};
             for (std::size_t k = 0; k < 3; ++k) {
-                const Point& a = t[k];
-                const Point& b = t[(k + 1) % 3];
-                edges[std::minmax(a, b)] += a < b ? 1 : -1;
+                const Point& a = corners[k];
+                const Point& b = corners[(k + 1) % 3];
+                if (a != b) edges[std::minmax(a, b)] += a < b ? 1 : -1;
             }
+        }
         return std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
     }
 };
@@ -214,7 +254,7 @@ DeviceMedium device_medium(const Scene& scene, uint32_t index, double metres) {
     d.emission_g = scaled(medium.emission[1]);
     d.emission_b = scaled(medium.emission[2]);
     d.anisotropy = medium.anisotropy;
-    d.ior = material.boundary == Boundary::dielectric ? material.ior : 1;
+    d.ior = material.boundary == Boundary::dielectric ? material.ior : 0;
     return d;
 }
 

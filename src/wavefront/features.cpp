@@ -31,6 +31,7 @@ std::string Features::defines() const {
     define("HAS_ENVIRONMENT_MAP", environment_map);
     define("HAS_MEDIA", media);
     define("HAS_DIELECTRICS", dielectrics);
+    define("HAS_MATCHED_MEDIA", matched_media);
     define("HAS_CONTACTS", contacts);
     define("ROUGH_DIELECTRICS", rough_dielectrics);
     define("MEDIA_SCATTER", media_scatter);
@@ -95,6 +96,8 @@ Features features_of(
     f.media = !media.media.empty();
     f.media_scatter = media.scatter;
     f.dielectrics = media.refract;
+    f.matched_media = std::ranges::any_of(
+        media.media, [](const DeviceMedium& medium) { return medium.ior == 0; });
     f.rough_dielectrics = media.refract_roughly;
     // Without a light that is somewhere there is no angle to draw distances from.
     const bool somewhere = std::ranges::any_of(lights.lights, [](const DeviceLight& light) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace wavepath {
 namespace {
@@ -105,6 +106,55 @@ TEST(Dielectric, PaneOverAFloor) {
             EXPECT_TRUE(has_mean(shared_mean(result, channels[c]), truth[c], strictness))
                 << "mu " << mu << ", " << channels[c];
     }
+}
+
+// A block of glass on white ground under a white sky shows 1, whatever stands in it or reaches into
+// it: boundaries around nothing, and bodies that only scatter, index-matched or not.
+TEST(Dielectric, BodiesInOneAnotherKeepTheFurnace) {
+    const struct {
+        const char* what;
+        Material other;
+        Vec3d low, high;
+    } cases[] = {
+        {"nothing, within", boundary_of({}), {-0.5, -0.5, 0.2}, {0.5, 0.5, 0.6}},
+        {"nothing, through all faces", boundary_of({}), {-1.5, -1.5, 0.2}, {1.5, 1.5, 0.6}},
+        {"nothing, through a corner", boundary_of({}), {-0.5, -0.5, 0.5}, {1.5, 1.5, 1.5}},
+        {"fog around", boundary_of(medium_of(0.3, 1)), {-1.5, -1.5, 0}, {1.5, 1.5, 1.5}},
+        {"fog, through a corner", boundary_of(medium_of(1, 1)), {-0.5, -0.5, 0.5}, {1.5, 1.5, 1.5}},
+        {"a liquid, through a face",
+         glass(1.33, medium_of(1, 1)),
+         {-0.5, -0.5, 0.5},
+         {0.5, 0.5, 1.5}},
+    };
+    std::set<double> through_rough_glass;  // with nothing in it
+    for (const float roughness : {0.0F, 0.3F})
+        for (const auto& [what, other, low, high] : cases) {
+            SCOPED_TRACE(fmt::format("{}, roughness {}", what, roughness));
+            Scene scene = scene_named("block");
+            scene.environment = constant_environment(1);
+            Material block = glass(1.5);
+            block.roughness = roughness;
+            add_square(scene, lambert(grey(1)), {0, 0, 0}, {0, 0, 1}, 10);
+            add_box(scene, block, {-1, -1, 0}, {1, 1, 1}, Facing::outward);
+            add_box(scene, other, low, high, Facing::outward);
+            RenderSettings settings =
+                square_settings("mis", perspective({1.5, 2, 4}, {0, 0, 0.5}, 0.5), 32, 32);
+            const double mean = image_mean(render_scene(scene, settings)).mean;
+            if (roughness > 0) {  // light is lost between facets
+                EXPECT_LT(mean, 1);
+                if (!other.medium.scatters()) through_rough_glass.insert(mean);
+                continue;
+            }
+            EXPECT_NEAR(mean, 1, 1e-6);
+            if (!other.medium.scatters()) continue;
+            settings.method.distances = Distances::mis;
+            settings.splits = {3, 2, 2};
+            settings.split_depth = 2;
+            const Strictness strictness{.bias = 0.01, .tests = 3};
+            EXPECT_TRUE(
+                has_mean(image_mean(render_for(strictness, scene, settings)), 1, strictness));
+        }
+    EXPECT_EQ(through_rough_glass.size(), 1U);
 }
 
 // L = R + (1 - R)^2 t / (1 - R t) in a uniform environment, t along the chord inside; n = 1.5,

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace wavepath {
 namespace {
@@ -295,6 +296,29 @@ TEST(MediaBoundary, AroundWhatIsDenserThanFloatsTellApartIsRefused) {
         warning_of_long_paths[0],
         testing::HasSubstr("next to nothing is absorbed: paths may take 4e+06 scatterings"));
     EXPECT_TRUE(warnings(1e2, 1).empty());
+}
+
+// Corners that an exporter rounded in each triangle by itself.
+TEST(MediaBoundary, MayHaveSeamsOfRounding) {
+    Scene scene = scene_named("ball");
+    scene.environment = constant_environment(1);
+    Primitive& ball = add_icosphere(scene, boundary_of(medium_of(1, 0)), {0, 0, 0}, 1, 2);
+    std::vector<float> corners;
+    std::vector<uint32_t> indices;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> rounding(-1e-7F, 1e-7F);
+    for (const uint32_t i : ball.indices) {
+        indices.push_back(static_cast<uint32_t>(indices.size()));
+        for (std::size_t k = 0; k < 3; ++k)
+            corners.push_back(ball.positions[3 * i + k] + rounding(random));
+    }
+    ball.positions = corners;
+    ball.indices = indices;
+    const RenderSettings settings =
+        square_settings("mis", orthographic({0, 0, 2}, {0, 0, 0}, 0.1), 2, 1);
+    EXPECT_TRUE(render_scene(scene, settings).warnings.empty());
+    scene.primitives[0].positions[0] += 1e-4F;
+    EXPECT_EQ(render_scene(scene, settings).warnings.size(), 1U);
 }
 
 // Every face twice, one way and the other: closed, but there is no inside.
