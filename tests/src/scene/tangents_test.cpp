@@ -2,12 +2,12 @@
 
 #include "scene/gltf_loader.h"
 #include "scene/transform.h"
+#include "support/sample_files.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 namespace wavepath {
@@ -85,12 +85,8 @@ TEST(Tangents, AreSomethingWhereCoordinatesSayNothing) {
 
 // Those that an exporter wrote with MikkTSpace, against ours: nearly all within a degree.
 TEST(Tangents, AreThoseOfMikkTSpaceOnASampleModel) {
-    const char* named = std::getenv("WAVEPATH_ASSETS");
-    const std::filesystem::path assets =
-        named ? std::filesystem::path(named)
-              : std::filesystem::path(WAVEPATH_SOURCE_DIR) / ".." / "shared" / "assets";
-    const auto path = assets / "models" / "LightsPunctualLamp" / "LightsPunctualLamp.gltf";
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no sample models in WAVEPATH_ASSETS";
+    const auto path = asset_folder() / "models" / "LightsPunctualLamp" / "LightsPunctualLamp.gltf";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no sample models";
     const Scene scene = load_gltf(path);
     std::size_t corners = 0;
     std::size_t close = 0;
