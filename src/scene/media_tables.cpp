@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -262,7 +262,8 @@ DeviceMedium device_medium(const Scene& scene, uint32_t index, double metres) {
 // by one of them and leave by another.
 uint32_t row_of(const DeviceMedium& medium, std::vector<DeviceMedium>& media) {
     const auto equal = [&](const DeviceMedium& other) {
-        return std::memcmp(&other, &medium, sizeof medium) == 0;
+        using Bits = std::array<uint32_t, sizeof(DeviceMedium) / sizeof(uint32_t)>;
+        return std::bit_cast<Bits>(other) == std::bit_cast<Bits>(medium);
     };
     const auto found = std::ranges::find_if(media, equal);
     const auto row = static_cast<uint32_t>(found - media.begin()) + 1;

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -180,7 +181,7 @@ bool is_binary(const std::string& bytes) {
 
 // Breaks the JSON of `bytes` and keeps the lengths of a .glb right.
 void break_json_of(std::string& bytes, Random& random) {
-    std::uint32_t size = static_cast<std::uint32_t>(bytes.size());
+    auto size = static_cast<std::uint32_t>(bytes.size());
     const std::size_t start = is_binary(bytes) ? glb_header_size : 0;
     if (start > 0) std::memcpy(&size, &bytes[12], sizeof size);
     Json root = Json::parse(bytes.substr(start, size), nullptr, false);
@@ -237,7 +238,7 @@ fs::path write_broken(const Seed& seed, const fs::path& folder, Random& random) 
         if (breaks_data) break_bytes(data, random);
         std::ofstream(folder / path.filename(), std::ios::binary) << data;
     }
-    const fs::path scene = folder / seed.file.filename();
+    fs::path scene = folder / seed.file.filename();
     std::ofstream(scene, std::ios::binary) << bytes;
     return scene;
 }
@@ -318,7 +319,12 @@ int main(int argc, char** argv) {
         fmt::print("usage: gltf_fuzz ASSETS SECONDS [SEED]\n");
         return 2;
     }
-    return wavepath::fuzz(
-        argv[1], std::stod(argv[2]),
-        argc == 4 ? static_cast<std::uint32_t>(std::stoul(argv[3])) : 1);
+    try {
+        return wavepath::fuzz(
+            argv[1], std::stod(argv[2]),
+            argc == 4 ? static_cast<std::uint32_t>(std::stoul(argv[3])) : 1);
+    } catch (const std::exception& exception) {  // of the arguments or the file system
+        std::puts(exception.what());
+        return 2;
+    }
 }

@@ -42,12 +42,15 @@ double reflectance_of(std::initializer_list<double> interfaces) {
 // A pane that lies on Lambert's floor of albedo rho: Rs + (1 - Rs) rho (1 - Ri) / (1 - rho Ri), Ri
 // of diffuse light within n = 1.5 [Saunderson 1942]. Over a gap of air it would be .50 for .32.
 TEST(Contact, PaneOnAFloor) {
-    constexpr double inside = .5963457597;
-    const struct { double mu, reflectance; } cases[] = {{1, .04}, {0.5, .0891867}};
+    const auto diffuse = [](double rho) {
+        constexpr double inside = .5963457597;
+        return rho * (1 - inside) / (1 - rho * inside);
+    };
+    const std::pair<double, double> cases[] = {{1, .04}, {0.5, .0891867}};  // mu, Rs
     const Strictness strictness{.tests = 24, .truth_error = 1e-6};
     for (const double gap : {0.0, least, -least})
         for (const bool floor_first : {true, false})
-            for (const auto& [mu, reflectance] : cases) {
+            for (const auto& [mu, rs] : cases) {
                 SCOPED_TRACE(fmt::format("gap {}, floor first {}, mu {}", gap, floor_first, mu));
                 Scene scene = skylit();
                 const auto add_floor = [&] {
@@ -58,12 +61,9 @@ TEST(Contact, PaneOnAFloor) {
                 if (!floor_first) add_floor();
                 const RenderResult result =
                     render_for(strictness, scene, square_settings("mis", along(mu), 16, 64));
-                const auto truth = [&](double rho) {
-                    return reflectance +
-                           (1 - reflectance) * rho * (1 - inside) / (1 - rho * inside);
-                };
-                EXPECT_TRUE(has_mean(shared_mean(result, "R"), truth(0.5), strictness));
-                EXPECT_TRUE(has_mean(shared_mean(result, "G"), truth(0.8), strictness));
+                const auto [r, g] = std::pair(diffuse(0.5), diffuse(0.8));
+                EXPECT_TRUE(has_mean(shared_mean(result, "R"), rs + (1 - rs) * r, strictness));
+                EXPECT_TRUE(has_mean(shared_mean(result, "G"), rs + (1 - rs) * g, strictness));
             }
 }
 
