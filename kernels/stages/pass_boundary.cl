@@ -60,11 +60,13 @@ kernel void pass_boundary(
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     if (material->boundary < BOUNDARY_INDEX_MATCHED) {
         // Rays that a surface sends back start RAY_OFFSET above it. Where the path passed
-        // boundaries closer to it than that, they start before those.
+        // boundaries closer to it than that, they start before those. A branch vertex that is
+        // resumed (at T_RESUMED) has been here before.
         const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
         const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
         const float apart = PLANE(hits, HIT_T)[slot] - PLANE(path_media, MEDIUM_T)[slot];
-        const int touch = apart * max(fabs(dot3(ng, direction)), 0x1p-8f) <= RAY_OFFSET;
+        const int touch =
+            (apart >= 0.0f) & (apart * max(fabs(dot3(ng, direction)), 0x1p-8f) <= RAY_OFFSET);
         const int passed = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]) != NO_BOUNDARY;
         const int sends_back =
             material->boundary == BOUNDARY_OPAQUE ? material->transmission == 0.0f : HAS_CONTACTS;

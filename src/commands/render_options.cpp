@@ -185,7 +185,7 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option(
            "--splits", o.splits,
            "N stops on a segment in a medium, M directions from each, S from a surface point; "
-           "default 1,1,1")
+           "default 1,1,1. N > 1 not with --distance exponential")
         ->type_name("N,M[,S]");
     app.add_option(
            "--split-depth", o.split_depth,

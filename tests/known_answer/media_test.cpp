@@ -174,6 +174,53 @@ TEST(MediaBoundary, IsNoScattering) {
     EXPECT_TRUE(has_mean(image_mean(render_for({}, scene, settings)), 2));
 }
 
+// A floor .45 free paths deep in what absorbs, under a white sky: rho 2 E3(tau) exp(-tau / mu), by
+// one direction from the floor or by several.
+TEST(MediaBoundary, IsPassedOnceByWhatBranchesBehindIt) {
+    Scene scene = scene_named("floor in soot");
+    scene.environment = constant_environment(1);
+    add_slab(scene, medium_of(0.5, 0));
+    add_square(scene, lambert(grey(0.8F)), {0, 0, -0.9}, {0, 0, 1}, 80);
+    const Strictness strictness{.tests = 6, .truth_error = 1e-6};
+    for (const char* method : {"bsdf", "mis"})
+        for (const Splits& splits : {Splits{1, 1, 1}, Splits{1, 1, 3}, Splits{2, 2, 2}}) {
+            RenderSettings settings = square_settings(method, along(1), 16, 64);
+            settings.termination = {TerminationKind::depth, 1, 1};
+            settings.method.distances = Distances::truncated;
+            settings.splits = splits;
+            settings.split_depth = 2;
+            EXPECT_TRUE(has_mean(
+                shared_mean(render_for(strictness, scene, settings)), .2434847242, strictness))
+                << method << ", " << splits.reflections;
+        }
+}
+
+// The same where the surroundings scatter: what is seen from outside is one mean by all ways to
+// branch.
+TEST(MediaBoundary, IsPassedOnceByWhatBranchesInFog) {
+    Scene scene = scene_named("floor in fog");
+    add_slab(scene, medium_of(1, 0.7, 0.3), 3);
+    add_square(scene, lambert({0.8F, 0.4F, 0.2F}), {0, 0, -0.9}, {0, 0, 1}, 4);
+    PunctualLight sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = {3, 3, 3};
+    sun.direction = normalized({0.3, 0.1, -1});
+    scene.lights.push_back(sun);
+    const auto mean = [&](const Splits& splits, Distances distances) {
+        RenderSettings settings =
+            square_settings("mis", perspective({0, -2, 2}, {0, 0, -0.5}, 0.4), 16, 64);
+        settings.method.distances = distances;
+        settings.splits = splits;
+        settings.split_depth = 2;
+        return image_mean(render_for({.bias = 0.01 / 1.5, .tests = 3}, scene, settings));
+    };
+    const Estimate truth = mean({1, 1, 1}, Distances::exponential);
+    for (const Distances distances :
+         {Distances::uniform, Distances::truncated, Distances::equiangular})
+        EXPECT_TRUE(agree(mean({3, 2, 2}, distances), truth, {.bias = 0.01, .tests = 3}))
+            << name_of(distances);
+}
+
 // Two balls in one another: the medium entered last fills the space. Chords along a diameter.
 TEST(MediaBoundary, InnermostMediumWins) {
     Scene scene = scene_named("nested");

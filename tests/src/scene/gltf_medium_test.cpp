@@ -81,6 +81,7 @@ TEST(GltfMedium, ReadsScatterDrafts) {
         material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 2;
         material["extensions"][extension] = scatter;
         const Medium medium = load(file_with(material)).materials[0].medium;
+        EXPECT_EQ(medium.anisotropy, scatter.value("scatterAnisotropy", 0.0F));
         std::array<double, 3> albedo{};
         for (std::size_t c = 0; c < 3; ++c) {
             const double sigma_t = medium.sigma_a[c] + medium.sigma_s[c];
@@ -98,6 +99,20 @@ TEST(GltfMedium, ReadsScatterDrafts) {
         EXPECT_THAT(
             albedos("KHR_materials_volume_scatter", {{key, {0.1, 0.5, 0.9}}}),
             near(.384240, .911709, .997907));
+    // the older draft does not know the anisotropy; its colour is black by default
+    EXPECT_THAT(
+        albedos(
+            "KHR_materials_volume_scatter",
+            {{"multiscatterColor", {0.1, 0.5, 0.9}}, {"scatterAnisotropy", 0.5}}),
+        near(.384240, .911709, .997907));
+    EXPECT_THAT(albedos("KHR_materials_volume_scatter", Json::object()), near(0, 0, 0));
+    // the newer one's is white, and is scaled
+    EXPECT_THAT(albedos("KHR_materials_scatter", {{"scatterStrengthFactor", 1}}), near(1, 1, 1));
+    EXPECT_THAT(
+        albedos(
+            "KHR_materials_scatter",
+            {{"scatterStrengthFactor", 0.5}, {"multiscatterColorFactor", {0.2, 1, 1.8}}}),
+        near(.384240, .911709, .997907));
     EXPECT_THAT(
         albedos(
             "KHR_materials_scatter", {{"scatterStrengthFactor", 1},
