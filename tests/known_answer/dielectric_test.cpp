@@ -157,6 +157,20 @@ TEST(Dielectric, BodiesInOneAnotherKeepTheFurnace) {
     EXPECT_EQ(through_rough_glass.size(), 1U);
 }
 
+// Glass as hot as the sky around it is not seen: it emits n^2 sigma_a B.
+TEST(Dielectric, AtOneTemperatureIsInvisible) {
+    Scene scene = scene_named("hot glass");
+    scene.environment = constant_environment(1);
+    Medium hot = medium_of(0, 0);
+    hot.sigma_a = {0.1F, 1, 10};
+    for (std::size_t c = 0; c < 3; ++c) hot.emission[c] = 1.5F * 1.5F * hot.sigma_a[c];
+    add_box(scene, glass(1.5, hot), {-1, -1, -1}, {1, 1, 1}, Facing::outward);
+    const RenderResult result =
+        render_scene(scene, square_settings("mis", perspective({2, 3, 4}, {0, 0, 0}, 0.6), 32, 16));
+    for (const char* channel : channels)
+        for (const float x : result.film.image.channels.at(channel)) EXPECT_NEAR(x, 1, 2e-5);
+}
+
 // L = R + (1 - R)^2 t / (1 - R t) in a uniform environment, t along the chord inside; n = 1.5,
 // sigma_a R = 0.25, through the centre.
 TEST(Dielectric, BallAbsorbs) {
