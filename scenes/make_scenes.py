@@ -190,7 +190,7 @@ def absorbing_glass():
         (f"glass {i}", ball((0.95 * (i - 1), 0.41, 0.0), 0.4, 4), boundary(f"glass {i}", [round(s * a, 6) for a in (5.0, 1.25, 0.25)], ior=1.5))
         for i, s in enumerate((0.0, 0.5, 1.0))
     ]
-    return [*studio(20.0), *balls], STUDIO_CAMERA
+    return [*studio(20.0), *balls], camera((0.0, 1.4, 4.0), 38.0, -14.0)
 
 
 def glass_of_liquid():

@@ -8,6 +8,7 @@
 //
 // One work-item a slot.
 
+#include "lights/punctual.cl"
 #include "media/boundary.cl"
 #include "media/homogeneous.cl"
 #include "sampling/dimensions.cl"
@@ -36,6 +37,7 @@ kernel void connect_through_media(
     const Vec3 origin = load3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot);
     const Vec3 direction = load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot);
     const float length = sqrt(dot3(direction, direction));
+    const int leaves = length > 0.5f * OUTSIDE_SCENE;
     uint stack = as_uint(PLANE(shadows, SHADOW_MEDIA)[slot]);
     Vec3 value = load3(PLANE(shadows, SHADOW_R), stride, slot);
     Vec3 tau = vec3(0.0f, 0.0f, 0.0f);
@@ -50,7 +52,8 @@ kernel void connect_through_media(
         global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
         const int arrives = hit.primitive < 0 || hit.t >= t_max;
         if (!arrives && material->boundary < BOUNDARY_INDEX_MATCHED) return;
-        const uint innermost = innermost_medium(stack);
+        // what leaves the scene has left all media: of an open mesh too
+        const uint innermost = arrives && leaves ? 0u : innermost_medium(stack);
         if (innermost > 0)
             tau = madd3(
                 tau, extinction(media + (int)innermost - 1),

@@ -43,7 +43,9 @@ class MediumReader {
     }
 
     double thickness() const {
-        return extension_number("KHR_materials_volume", "thicknessFactor", 0);
+        const double factor = extension_number("KHR_materials_volume", "thicknessFactor", 0);
+        if (!(factor >= 0)) fail("thicknessFactor is {}; it has to be 0 or more", factor);
+        return factor;
     }
 
     Medium read() const { return has_extras() ? from_extras() : from_volume(); }
@@ -118,7 +120,12 @@ class MediumReader {
                 fail("attenuationColor holds {}, not in 0 .. 1; repair it", color[c]);
             // black absorbs everything: as much as single precision can tell from nothing
             const double kept = std::max(color[c], 1e-37);
-            medium.sigma_a[c] = static_cast<float>(-std::log(kept) / distance);
+            const double sigma = -std::log(kept) / distance;
+            if (sigma > std::numeric_limits<float>::max())
+                fail(
+                    "attenuationDistance is {} m, too short for single precision; raise it",
+                    distance);
+            medium.sigma_a[c] = static_cast<float>(sigma);
         }
         if (const auto* newer = find_extension(source_.extensions, "KHR_materials_scatter"))
             scatter(
@@ -172,7 +179,7 @@ class MediumReader {
         medium.sigma_a = coefficients(extras, "sigma_a");
         medium.sigma_s = coefficients(extras, "sigma_s");
         medium.emission = coefficients(extras, "emission");
-        const double g = number(file_, where_, extras, "g", 0);
+        const double g = number(file_, where_of_extras(), extras, "g", 0);
         if (!(std::abs(g) <= largest_anisotropy))
             fail(
                 "extras.{}: g is {}, not in -{} .. {}", extras_key, g, largest_anisotropy,
@@ -181,14 +188,19 @@ class MediumReader {
         return medium;
     }
 
+    std::string where_of_extras() const { return fmt::format("{}: extras.{}", where_, extras_key); }
+
     Rgb coefficients(const tinygltf::Value& object, const char* key) const {
-        const std::vector<double> values = numbers(file_, where_, object, key, {0, 0, 0});
+        const std::vector<double> values =
+            numbers(file_, where_of_extras(), object, key, {0, 0, 0});
         if (values.size() != 3)
             fail("extras.{}: {} has {} numbers instead of 3", extras_key, key, values.size());
         Rgb rgb;
         for (std::size_t c = 0; c < 3; ++c) {
-            if (!(values[c] >= 0 && values[c] <= std::numeric_limits<float>::max()))
-                fail("extras.{}: {} holds {}; it has to be 0 or more", extras_key, key, values[c]);
+            constexpr float most = std::numeric_limits<float>::max();
+            if (!(values[c] >= 0 && values[c] <= most))
+                fail(
+                    "extras.{}: {} holds {}, not in 0 .. {:.2g}", extras_key, key, values[c], most);
             rgb[c] = static_cast<float>(values[c]);
         }
         return rgb;
@@ -212,6 +224,8 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
         ignored.add(fmt::format("members {}", name), "rendered as if they were not there");
     if (!is_volume && reader.scatters())
         ignored.add("materials that scatter without a volume", "rendered as if they did not");
+    if (is_volume && material.unlit)
+        ignored.add("volumes of unlit materials", "rendered without them");
     if (!is_volume || material.unlit) return;
     constexpr const char* instead = "rendered as thin walls";
     if (transmission < 1 || material.metallic > 0)

@@ -186,13 +186,13 @@ std::string warning_of_extinction(const Scene& scene, uint32_t index, double met
     }
     const double free_paths = extinction * metres;
     const std::string found = fmt::format(
-        "material {} \"{}\": an extinction of {:.3g} per metre makes {:.3g} free paths across the "
-        "scene",
-        index, material.name, extinction, free_paths);
+        "{}: material {} \"{}\": an extinction of {:.3g} per metre makes {:.3g} free paths across "
+        "the scene",
+        scene.name, index, material.name, extinction, free_paths);
     if (free_paths > most)
         throw Error(
-            "{}: {}, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a",
-            scene.name, found, most);
+            "{}, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a", found,
+            most);
     if (scatterings > long_paths)
         return fmt::format(
             "{}, and next to nothing is absorbed: paths may take {:.0g} scatterings, and long to "
@@ -318,29 +318,42 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
             tables.scatter = tables.scatter || medium.scatters();
             tables.emit = tables.emit || medium.emits();
         }
+    std::vector<std::string> patched;
+    std::vector<std::string> open;
+    std::vector<std::string> flat;
     for (const Body& body : bodies) {
-        if (rows_of(body, tables).size() > 1)
-            tables.warnings.push_back(fmt::format(
-                "{}: its faces bound different media, so a ray may enter one and leave another; "
-                "give them one medium",
-                body.name));
+        if (rows_of(body, tables).size() > 1) patched.push_back(body.name);
         if (!body.is_closed())
-            tables.warnings.push_back(fmt::format(
-                "{}: encloses a medium but is not closed; rays that leave by a hole leave the "
-                "medium only when they leave the scene",
-                body.name));
+            open.push_back(body.name);
         else if (std::abs(body.volume()) <= 1e-12)  // what rounding leaves of none
-            tables.warnings.push_back(fmt::format(
-                "{}: bounds a medium but encloses no volume; give it thickness, or take "
-                "KHR_materials_volume away for a thin wall",
-                body.name));
+            flat.push_back(body.name);
         else if (body.volume() < 0 && !is_hollow(body, bodies, tables))
             throw Error(
-                "{}: {} is inside out, so that the medium it bounds would fill the space around it "
-                "without end; turn its faces",
+                "{}: {} is inside out, and no body of the same medium is around it that it could "
+                "be a "
+                "hollow in; turn its faces",
                 scene.name, body.name);
         if (std::ssize(bodies) > stack_height) check_nesting(scene, body, bodies);
     }
+    const auto warn = [&](const std::vector<std::string>& names, const char* what) {
+        if (names.empty()) return;
+        const std::string more =
+            names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "";
+        tables.warnings.push_back(
+            fmt::format("{}: {}{}: {}", scene.name, names.front(), more, what));
+    };
+    warn(
+        patched,
+        "the faces bound different media, so a ray may enter one and leave another; give them one "
+        "medium");
+    warn(
+        open,
+        "not closed around a medium; rays that leave by a hole leave the medium only when they "
+        "leave the scene");
+    warn(
+        flat,
+        "no volume within what bounds a medium; give it thickness, or take KHR_materials_volume "
+        "away for a thin wall");
     constexpr std::size_t most_media = 255;  // eight bits of MEDIUM_STACK
     if (tables.media.size() > most_media)
         throw Error(
@@ -378,8 +391,8 @@ uint32_t media_at_camera(
     const bool orthographic = params.orthographic != 0;
     const Vec3d camera = orthographic ? Vec3d{params.corner_x, params.corner_y, params.corner_z}
                                       : Vec3d{params.camera_x, params.camera_y, params.camera_z};
-    std::vector<std::pair<double, uint32_t>> around;  // volume, row + 1
-    std::vector<uint32_t> hollow;                     // row + 1
+    std::vector<std::pair<float, uint32_t>> around;  // volume, row + 1
+    std::vector<uint32_t> hollow;                    // row + 1
     for (const Body& body : bodies_with_media(scene, geometry)) {
         const auto cuts = [&](const auto& triangle) { return cuts_film(triangle, params); };
         if (orthographic && std::ranges::any_of(body.triangles, cuts))
@@ -389,11 +402,12 @@ uint32_t media_at_camera(
                 scene.name, body.name);
         const double winding = body.winding(camera);
         for (const uint32_t row : rows_of(body, tables)) {
-            if (winding > 0.5) around.emplace_back(body.volume(), row);
+            if (winding > 0.5) around.emplace_back(static_cast<float>(body.volume()), row);
             if (winding < -0.5) hollow.push_back(row);
         }
     }
-    std::ranges::sort(around, std::greater<>());
+    // of bodies with the same faces the one later in the file stays behind, as for paths
+    std::ranges::stable_sort(around, std::greater<>(), &std::pair<float, uint32_t>::first);
     for (const uint32_t row : hollow) {
         const auto innermost = std::find_if(
             around.rbegin(), around.rend(), [&](const auto& a) { return a.second == row; });

@@ -100,6 +100,9 @@ void check_splits(const RenderSettings& settings, bool media_scatter) {
         throw Error(
             "--splits with more than one stop: --distance exponential has one or none; choose "
             "another");
+    if (settings.split_depth == 0 &&
+        std::max({splits.stops, splits.directions, splits.reflections}) > 1)
+        throw Error("--splits with --split-depth 0: nothing would branch; take 1 or more");
     constexpr double most = 1e8;
     const double children =
         splits.reflections + (media_scatter ? double{1} * splits.stops * splits.directions : 0);
@@ -291,7 +294,13 @@ RenderResult render(
     }
 
     result.film = develop(device, film, result.samples, result.batches);
-    if (result.batches > 1 && !std::isfinite(result.film.relative_error))
+    if (result.film.nonfinite.samples > 0 && features.media)
+        result.warnings.push_back(fmt::format(
+            "{}: samples are not finite where more than 4 media lie around one another; take one "
+            "of "
+            "them away if any do",
+            scene.name));
+    else if (result.batches > 1 && !std::isfinite(result.film.relative_error))
         result.warnings.emplace_back(
             "the variance layer is not finite: squares of the radiance exceed 32 bits; dim the "
             "lights");

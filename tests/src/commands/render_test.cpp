@@ -139,6 +139,9 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --splits 2", "--splits 2");
     expect_refused(cornell_box + " --splits 2,0", "--splits 2,0");
     expect_refused(
+        cornell_box + " --splits 1,1,2 --split-depth 0",
+        "--splits with --split-depth 0: nothing would branch; take 1 or more");
+    expect_refused(
         cornell_box + " --splits 1,1,64 --split-depth 8",
         "--splits 1,1,64 --split-depth 8: up to 3e+14 paths a sample; lower them");
     expect_refused(cornell_box + " --camera nobody", "--camera nobody");

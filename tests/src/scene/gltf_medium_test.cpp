@@ -122,6 +122,14 @@ TEST(GltfMedium, ReadsScatterDrafts) {
     EXPECT_THAT(albedos("KHR_materials_scatter", Json::object()), near(0, 0, 0));
 }
 
+TEST(GltfMedium, SaysThatUnlitMaterialsEncloseNothing) {
+    Json material = boundary();
+    material["extensions"]["KHR_materials_unlit"] = Json::object();
+    const Scene scene = load(file_with(material));
+    EXPECT_EQ(scene.materials[0].boundary, Boundary::opaque);
+    EXPECT_THAT(scene.ignored, ElementsAre(HasSubstr("volumes of unlit materials (1)")));
+}
+
 TEST(GltfMedium, SaysWhatIsAThinWallInstead) {
     struct Case {
         const char* path;
@@ -202,9 +210,15 @@ TEST(GltfMedium, IsBoundedWithoutAlpha) {
 
 TEST(GltfMedium, RefusesWhatMeansNothing) {
     const auto refusal = [](const Json& material) { return load_error(file_with(material)); };
-    EXPECT_THAT(refusal(with_extras({{"sigma_a", {0, -1, 0}}})), HasSubstr("0 or more"));
+    EXPECT_THAT(
+        refusal(with_extras({{"sigma_a", {0, -1, 0}}})),
+        HasSubstr("holds -1, not in 0 .. 3.4e+38"));
+    EXPECT_THAT(
+        refusal(with_extras({{"sigma_a", {0, 1e39, 0}}})), HasSubstr("holds 1e+39, not in"));
     EXPECT_THAT(refusal(with_extras({{"sigma_s", {1, 1}}})), HasSubstr("2 numbers instead of 3"));
-    EXPECT_THAT(refusal(with_extras({{"sigma_s", "red"}})), HasSubstr("sigma_s is not an array"));
+    EXPECT_THAT(
+        refusal(with_extras({{"sigma_s", "red"}})),
+        HasSubstr("extras.wavepath_medium: sigma_s is not"));
     EXPECT_THAT(refusal(with_extras({{"g", 1}})), HasSubstr("g is 1"));
     EXPECT_THAT(refusal(with_extras({{"sigma", {1, 1, 1}}})), HasSubstr("no member \"sigma\""));
     EXPECT_THAT(refusal(with_extras(1)), HasSubstr("not an object"));
@@ -236,7 +250,13 @@ TEST(GltfMedium, RefusesWhatMeansNothing) {
     EXPECT_THAT(refusal(material), HasSubstr("ior 1 and emits"));
     material = boundary();
     material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 0;
-    EXPECT_THAT(refusal(material), HasSubstr("attenuationDistance"));
+    EXPECT_THAT(refusal(material), HasSubstr("attenuationDistance is 0; it has to be above 0"));
+    material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 1e-40;
+    material["extensions"]["KHR_materials_volume"]["attenuationColor"] = {0.5, 0.5, 0.5};
+    EXPECT_THAT(refusal(material), HasSubstr("attenuationDistance is 1e-40 m, too short"));
+    material = boundary();
+    material["extensions"]["KHR_materials_volume"]["thicknessFactor"] = -1;
+    EXPECT_THAT(refusal(material), HasSubstr("thicknessFactor is -1; it has to be 0 or more"));
 }
 
 }  // namespace
