@@ -95,7 +95,8 @@ INLINE int8 intersect_node(
 }
 
 // Where a ray begins among the triangles it meets, which follow one another by distance, then id:
-// behind the last boundary it passed (with HAS_MEDIA), so that none is met twice and none left out.
+// behind the last one it passed, so that none is met twice and none left out.
+#define STARTS_BEHIND (HAS_MEDIA || HAS_CONTACTS)
 typedef struct {
     float t;
     int primitive;
@@ -132,7 +133,7 @@ INLINE void closest_in_block(
         lanes ^= 1u << lane;
         const uint entry = block->primitives[lane];
         const int primitive = (int)(HAS_ALPHA ? entry & ~BVH_HOLES : entry);
-        if (HAS_MEDIA &&
+        if (STARTS_BEHIND &&
             (ts[lane] < start.t || (ts[lane] == start.t && primitive <= start.primitive)))
             continue;
         if (ts[lane] < hit->t || (ts[lane] == hit->t && primitive < hit->primitive)) {
@@ -199,7 +200,7 @@ Hit closest_hit(
         } else {
             float8 t_near;
             lanes = lane_mask(intersect_node(
-                nodes + current, &slabs, HAS_MEDIA ? start.t : 0.0f, hit.t, &t_near));
+                nodes + current, &slabs, STARTS_BEHIND ? start.t : 0.0f, hit.t, &t_near));
             if (lanes != 0) {
                 float ts[8];
                 vstore8(t_near, 0, ts);

@@ -3,6 +3,7 @@
 // ior_i; wi.z < 0 lies on the other side, of index ior_t.
 #pragma once
 
+#include "geometry/shading_normal.cl"
 #include "materials/ggx.cl"
 #include "sampling/vector.cl"
 #include "shared/features.h"
@@ -69,6 +70,30 @@ INLINE DielectricValue dielectric_eval(
     DielectricValue r;
     r.pdf_w = faces ? pdf_w : 0.0f;
     r.value = r.pdf_w * ggx_shadowing(wo, wi, alpha) * (reflects ? 1.0f : eta * eta);
+    return r;
+}
+
+// Of a rough interface whose lobes lie around the normal of `frame`, on a face of normal `ng`: what
+// a lobe sends to the wrong side of the face is mirrored at it (geometry/shading_normal.cl).
+// `wi`: in the world.
+INLINE DielectricValue dielectric_towards(
+    const Frame frame,
+    const Vec3 ng,
+    const Vec3 wo,
+    const Vec3 wi,
+    const float alpha,
+    const float ior_i,
+    const float ior_t) {
+    const Vec3 direct = to_local(frame, wi);
+    DielectricValue r = dielectric_eval(wo, direct, alpha, ior_i, ior_t);
+    if (!HAS_SHADING_NORMALS) return r;
+    const int above = dot3(ng, wi) > 0.0f;
+    const Vec3 mirrored = to_local(frame, mirror3(wi, ng));
+    const DielectricValue m = dielectric_eval(wo, mirrored, alpha, ior_i, ior_t);
+    const float by_direct = (direct.z > 0.0f) == above ? 1.0f : 0.0f;
+    const float by_mirrored = (mirrored.z > 0.0f) == above ? 1.0f : 0.0f;
+    r.value = fma(by_direct, r.value, by_mirrored * m.value);
+    r.pdf_w = fma(by_direct, r.pdf_w, by_mirrored * m.pdf_w);
     return r;
 }
 

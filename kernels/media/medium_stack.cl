@@ -36,9 +36,10 @@ INLINE uint cross_boundary(
 
 // How far along a ray surfaces behind this triangle still touch it: RAY_OFFSET along its normal. A
 // grazing ray may leave a curved surface before that.
+#define LEAST_COSINE 0x1p-8f
 INLINE float touching_distance(global const float* triangle, const Vec3 direction) {
     const float cosine = fabs(dot3(normalize3(triangle_cross(triangle)), direction));
-    return RAY_OFFSET / max(cosine, 0x1p-8f);
+    return RAY_OFFSET / max(cosine, LEAST_COSINE);
 }
 
 // The ray goes on behind the boundary of this triangle, met at t, from these media into those.
@@ -57,6 +58,7 @@ INLINE void go_on_behind(
     PLANE(path_media, MEDIUM_STACK)[slot] = as_float(crossed);
     PLANE(path_media, MEDIUM_T)[slot] = t;
     PLANE(path_media, MEDIUM_PRIMITIVE)[slot] = as_float(primitive);
+    PLANE(path_media, MEDIUM_TOUCHING)[slot] = touching;
     PLANE(path_media, MEDIUM_PASSES)
     [slot] = as_float(as_uint(PLANE(path_media, MEDIUM_PASSES)[slot]) + 1);
 }
@@ -87,5 +89,6 @@ INLINE float weight_of_crossing(const uint stack, const uint crossed, const uint
 INLINE void start_at_origin(global float* path_media, const size_t stride, const size_t slot) {
     PLANE(path_media, MEDIUM_T)[slot] = 0.0f;
     PLANE(path_media, MEDIUM_PRIMITIVE)[slot] = as_float(NO_BOUNDARY);
+    PLANE(path_media, MEDIUM_TOUCHING)[slot] = 0.0f;
     PLANE(path_media, MEDIUM_PASSES)[slot] = as_float(0);
 }

@@ -9,6 +9,7 @@
 #include "shared/params.h"
 #include "shared/path.h"
 
+#define MEDIUM_PLANES_USED (HAS_CONTACTS ? MEDIUM_PLANES : MEDIUM_PLANES_APART)
 #define BRANCH_LEVELS (1u + HAS_MEDIA)  // of the stack, for each of --split-depth
 #define BRANCH_PLANES_USED (HAS_MEDIA ? BRANCH_PLANES : BRANCH_PLANES_SURFACE)
 
@@ -63,7 +64,7 @@ INLINE void open_branch(
     PLANE(branch, BRANCH_T)[slot] = t;
     store3(PLANE(branch, BRANCH_ORIGIN_X), stride, slot, origin);
     PLANE(branch, BRANCH_PDF)[slot] = PLANE(throughputs, THROUGHPUT_PDF)[slot];
-    for (int k = 0; k < MEDIUM_PLANES; ++k)
+    for (int k = 0; k < MEDIUM_PLANES_USED; ++k)
         PLANE(branch, BRANCH_MEDIA + k)[slot] = PLANE(path_media, k)[slot];
 }
 

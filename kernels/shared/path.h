@@ -73,20 +73,17 @@ enum MediumPlane {
                        // behind a dielectric, from which the ray's origin keeps RAY_OFFSET
     MEDIUM_PRIMITIVE,  // (int bits) the boundary it begins at; NO_BOUNDARY at the ray's origin
     MEDIUM_PASSES,     // (uint bits) boundaries passed since the ray's origin
-    MEDIUM_BEFORE,  // (uint bits) MEDIUM_STACK before MEDIUM_PRIMITIVE and boundaries touching it
-    MEDIUM_PLANES
-};
-#define NO_BOUNDARY (-1)
-
-// contacts: what is behind the dielectric that was hit and all that touches it (only with
-// HAS_CONTACTS; from find_contacts to refract_boundary)
-enum ContactPlane {
-    CONTACT_MEDIA,  // (uint bits) MEDIUM_STACK there
-    CONTACT_R,      // [1] product of the base colours of what touches the dielectric
+    MEDIUM_BEFORE,    // (uint bits) MEDIUM_STACK before MEDIUM_PRIMITIVE and boundaries touching it
+    MEDIUM_TOUCHING,  // how far behind MEDIUM_PRIMITIVE surfaces touch it [along the ray]
+    // Of the glass or thin wall that was hit (only with HAS_CONTACTS; from find_contacts on):
+    CONTACT_MEDIA,  // (uint bits) MEDIUM_STACK behind it and all that touches it
+    CONTACT_R,      // [1] product of the base colours of what touches it
     CONTACT_G,
     CONTACT_B,
-    CONTACT_PLANES
+    MEDIUM_PLANES
 };
+#define MEDIUM_PLANES_APART CONTACT_MEDIA
+#define NO_BOUNDARY (-1)
 
 // throughputs: what the path carries
 enum ThroughputPlane {
@@ -126,10 +123,11 @@ enum ShadowPlane {
     SHADOW_ORIGIN_X,
     SHADOW_ORIGIN_Y,
     SHADOW_ORIGIN_Z,
-    SHADOW_DIRECTION_X,  // not unit: the light lies at t = SHADOW_T_MAX
+    SHADOW_DIRECTION_X,  // not unit: the light lies at t = 1
     SHADOW_DIRECTION_Y,
     SHADOW_DIRECTION_Z,
-    SHADOW_T_MAX,  // 0: nothing pending
+    SHADOW_T_MAX,  // where the search for what is in the way ends: 1, or with HAS_MEDIA behind the
+                   // triangle that is the light, for boundaries that touch it; 0: nothing pending
     SHADOW_R,      // radiance it brings if nothing is in the way
     SHADOW_G,
     SHADOW_B,
@@ -179,7 +177,7 @@ enum BranchPlane {
     BRANCH_ORIGIN_Y,
     BRANCH_ORIGIN_Z,
     BRANCH_PDF,    // plane THROUGHPUT_PDF
-    BRANCH_MEDIA,  // and the MEDIUM_PLANES planes of media
+    BRANCH_MEDIA,  // and the planes of media
     BRANCH_PLANES = BRANCH_MEDIA + MEDIUM_PLANES
 };
 #define BRANCH_PLANES_SURFACE BRANCH_SCATTERING

@@ -50,15 +50,15 @@ kernel void connect_through_media(
             t_max, start, holes_in(&cover));
         global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * max(hit.primitive, 0);
         global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
-        const int arrives = hit.primitive < 0 || hit.t >= t_max;
-        if (!arrives && material->boundary < BOUNDARY_INDEX_MATCHED) return;
+        const int ends = hit.primitive < 0 || material->boundary < BOUNDARY_INDEX_MATCHED;
+        if (hit.primitive >= 0 && ends && hit.t < 1.0f) return;
         // what leaves the scene has left all media: of an open mesh too
-        const uint innermost = arrives && leaves ? 0u : innermost_medium(stack);
+        const uint innermost = ends && leaves ? 0u : innermost_medium(stack);
+        const float end = ends ? 1.0f : min(hit.t, 1.0f);
         if (innermost > 0)
             tau = madd3(
-                tau, extinction(media + (int)innermost - 1),
-                ((arrives ? t_max : hit.t) - start.t) * length);
-        if (arrives) break;
+                tau, extinction(media + (int)innermost - 1), max(end - start.t, 0.0f) * length);
+        if (ends) break;
         const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
         value = mul3(value, tint_of_boundary(&cover, materials, &hit));
         value = scale3(value, weight_of_crossing(stack, crossed, material->medium));

@@ -2,7 +2,7 @@
 // connection to `occlusion` or `connect_through_media` (notes 5, directRadianceEstimator, with the
 // f_r that the notes leave out; notes 6).
 //
-// reads: rays, hits, surfaces, throughputs, ids, media, contacts, scene, lights, textures
+// reads: rays, hits, surfaces, throughputs, ids, media, scene, lights, textures
 //
 // writes: shadows
 //
@@ -34,7 +34,6 @@ kernel void direct_light(
     global const float* restrict throughputs,
     global const uint* restrict ids,
     global const float* restrict path_media,
-    global const float* restrict contacts,
     global float* restrict shadows) {
     const RenderParams params = *settings;
     const size_t stride = params.stride;
@@ -58,7 +57,7 @@ kernel void direct_light(
             materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
         refracts = !in_medium & (material->boundary == BOUNDARY_DIELECTRIC);
         if (refracts) {
-            crossed = HAS_CONTACTS ? as_uint(PLANE(contacts, CONTACT_MEDIA)[slot])
+            crossed = HAS_CONTACTS ? as_uint(PLANE(path_media, CONTACT_MEDIA)[slot])
                                    : cross_boundary(
                                          stack, material->medium,
                                          triangles + TRIANGLE_FLOATS * primitive, direction);
@@ -73,6 +72,10 @@ kernel void direct_light(
     const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
     const Vec3 n = load_shading_normal(surfaces, stride, slot);
     const Surface surface = load_surface(materials, surfaces, stride, slot);
+
+    const int is_wall = HAS_TRANSMISSION && !in_medium && surface.transmission > 0.0f;
+    if (HAS_MEDIA & HAS_CONTACTS & is_wall)
+        crossed = as_uint(PLANE(path_media, CONTACT_MEDIA)[slot]);
 
     // the light and the point
     const uint seed = PLANE(ids, ID_SEED)[slot];
@@ -121,7 +124,6 @@ kernel void direct_light(
     // find it
     const Frame frame = frame_around(n);
     const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
-    const Vec3 wi = to_local(frame, s.wi);
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
     const Scattered scattered = scatter_towards(surface, frame, ng, wo, s.wi);
     Vec3 f = scattered.value;
@@ -143,14 +145,15 @@ kernel void direct_light(
         pdf_w = in_medium ? phase_pdf : pdf_w;
     }
     if (ROUGH_DIELECTRICS) {
-        const DielectricValue v = dielectric_eval(wo, wi, alpha, ior_i, ior_t);
-        Vec3 passed = surface.base;
-        if (HAS_CONTACTS) passed = mul3(passed, load3(PLANE(contacts, CONTACT_R), stride, slot));
-        const Vec3 tint = select3(wi.z > 0.0f, vec3(1.0f, 1.0f, 1.0f), passed);
+        const DielectricValue v = dielectric_towards(frame, ng, wo, s.wi, alpha, ior_i, ior_t);
+        const int beyond = dot3(ng, s.wi) < 0.0f;
+        const Vec3 tint = select3(beyond, surface.base, vec3(1.0f, 1.0f, 1.0f));
         f = select3(refracts, scale3(tint, v.value), f);
         pdf_w = refracts ? v.pdf_w : pdf_w;
-        side = refracts ? (wi.z < 0.0f ? -1.0f : 1.0f) : side;
+        side = refracts ? (beyond ? -1.0f : 1.0f) : side;
     }
+    if (HAS_MEDIA & HAS_CONTACTS & (refracts | is_wall) & (side < 0.0f))
+        f = mul3(f, load3(PLANE(path_media, CONTACT_R), stride, slot));
     value = mul3(value, f);
     if (WEIGH_BOTH) {
         // a sky below the horizon has no density and no radiance either
@@ -164,8 +167,13 @@ kernel void direct_light(
     t_max *= (!in_medium & (side * dot3(ng, s.wi) <= 0.0f)) ? 0.0f : 1.0f;
     t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
     const Vec3 origin = select3(in_medium, p, leave(p, scale3(ng, side)));
+    const Vec3 to_light = sub3(s.p, origin);
+    if (HAS_MEDIA && HAS_AREA_LIGHTS)
+        t_max *= light->kind == LIGHT_TRIANGLE
+                     ? 1.0f + RAY_OFFSET / LEAST_COSINE / sqrt(dot3(to_light, to_light))
+                     : 1.0f;
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
-    store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, sub3(s.p, origin));
+    store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, to_light);
     PLANE(shadows, SHADOW_T_MAX)[slot] = t_max;
     store3(PLANE(shadows, SHADOW_R), stride, slot, value);
     if (HAS_MEDIA) PLANE(shadows, SHADOW_MEDIA)[slot] = as_float(side < 0.0f ? crossed : stack);

@@ -1,10 +1,11 @@
-// Looks behind every dielectric face that a ray met for what touches it: what lies within
-// RAY_OFFSET is one interface with it, since the ray that leaves starts beyond. An opaque surface
-// there is hit in its place; boundaries are crossed with it.
+// Looks behind every dielectric face and thin wall that a ray met for what touches it: what lies
+// within RAY_OFFSET is one interface with it, since the ray that leaves starts beyond. An opaque
+// surface there is hit in its place, and glass in the place of a thin wall; boundaries are crossed
+// with it.
 //
 // reads: rays, hits, media, ids, scene, textures
 //
-// writes: hits, contacts
+// writes: hits, media
 //
 // One work-item a slot. Thin walls there are not seen.
 
@@ -22,10 +23,9 @@ kernel void find_contacts(
     global const DeviceMaterial* restrict materials,
     TEXTURE_PARAMETERS,
     global const float* restrict rays,
-    global const float* restrict path_media,
+    global float* restrict path_media,
     global const uint* restrict ids,
-    global float* restrict hits,
-    global float* restrict contacts) {
+    global float* restrict hits) {
     const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
@@ -35,38 +35,47 @@ kernel void find_contacts(
     if (HAS_SPLITS && face_t < 0.0f) return;
     global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * face;
     global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
-    if (material->boundary != BOUNDARY_DIELECTRIC) return;
+    int is_wall = (material->boundary == BOUNDARY_OPAQUE) & (material->transmission > 0.0f);
+    if (material->boundary != BOUNDARY_DIELECTRIC && !is_wall) return;
     const Vec3 origin = load3(PLANE(rays, RAY_ORIGIN_X), stride, slot);
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
     const Cover cover =
         ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
-    const float end = face_t + touching_distance(triangle, direction);
-    const uint before = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
-    uint stack = cross_boundary(before, material->medium, triangle, direction);
-    const float weight = weight_of_crossing(before, stack, material->medium);
-    Vec3 tint = vec3(weight, weight, weight);
+    float end = face_t + touching_distance(triangle, direction);
+    uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
+    Vec3 tint = vec3(1.0f, 1.0f, 1.0f);
+    if (!is_wall) {
+        const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
+        tint = scale3(tint, weight_of_crossing(stack, crossed, material->medium));
+        stack = crossed;
+    }
     RayStart start = ray_start(face_t, face);
     for (;;) {
         const Hit hit = closest_hit(
             nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, end,
             start, holes_in(&cover));
         if (hit.primitive < 0) break;
+        start = ray_start(hit.t, hit.primitive);
         triangle = triangles + (size_t)TRIANGLE_FLOATS * hit.primitive;
         material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
-        if (material->boundary != BOUNDARY_OPAQUE) {
-            const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
-            tint = scale3(tint, weight_of_crossing(stack, crossed, material->medium));
-            tint = mul3(tint, tint_of_boundary(&cover, materials, &hit));
-            stack = crossed;
-        } else if (material->transmission == 0.0f) {
+        const int is_opaque = material->boundary == BOUNDARY_OPAQUE;
+        if (is_opaque && material->transmission > 0.0f) continue;
+        const int replaces = is_opaque | (is_wall & (material->boundary == BOUNDARY_DIELECTRIC));
+        if (replaces) {
             PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(hit.primitive);
             PLANE(hits, HIT_T)[slot] = hit.t;
             PLANE(hits, HIT_U)[slot] = hit.u;
             PLANE(hits, HIT_V)[slot] = hit.v;
-            return;
+            if (is_opaque) return;
+            is_wall = 0;
+            end = hit.t + touching_distance(triangle, direction);
         }
-        start = ray_start(hit.t, hit.primitive);
+        const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
+        tint = scale3(tint, weight_of_crossing(stack, crossed, material->medium));
+        if (!replaces) tint = mul3(tint, tint_of_boundary(&cover, materials, &hit));
+        stack = crossed;
     }
-    PLANE(contacts, CONTACT_MEDIA)[slot] = as_float(stack);
-    store3(PLANE(contacts, CONTACT_R), stride, slot, tint);
+    if (!HAS_MEDIA) return;
+    PLANE(path_media, CONTACT_MEDIA)[slot] = as_float(stack);
+    store3(PLANE(path_media, CONTACT_R), stride, slot, tint);
 }

@@ -68,8 +68,8 @@ kernel void pass_boundary(
         const int touch =
             (apart >= 0.0f) & (apart * max(fabs(dot3(ng, direction)), 0x1p-8f) <= RAY_OFFSET);
         const int passed = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]) != NO_BOUNDARY;
-        const int sends_back =
-            material->boundary == BOUNDARY_OPAQUE ? material->transmission == 0.0f : HAS_CONTACTS;
+        const int sends_back = HAS_CONTACTS | ((material->boundary == BOUNDARY_OPAQUE) &
+                                               (material->transmission == 0.0f));
         if (touch & passed & sends_back)
             PLANE(path_media, MEDIUM_STACK)[slot] = PLANE(path_media, MEDIUM_BEFORE)[slot];
         return;

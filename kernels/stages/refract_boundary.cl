@@ -2,7 +2,7 @@
 // give, else refracted into the medium that begins or ends there. A path that crosses carries
 // (n_i / n_t)^2 of the radiance behind [Veach 1997, section 5.2].
 //
-// reads: rays, surfaces, contacts, ids, scene, media
+// reads: rays, surfaces, ids, scene, media
 //
 // writes: rays, media, hits, throughputs, ids
 //
@@ -20,7 +20,6 @@ kernel void refract_boundary(
     global const DeviceMaterial* restrict materials,
     global const DeviceMedium* restrict media,
     global const float* restrict surfaces,
-    global const float* restrict contacts,
     global float* restrict rays,
     global float* restrict path_media,
     global float* restrict hits,
@@ -42,8 +41,8 @@ kernel void refract_boundary(
     uint crossed;
     Vec3 passed = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
     if (HAS_CONTACTS) {
-        crossed = as_uint(PLANE(contacts, CONTACT_MEDIA)[slot]);
-        passed = mul3(passed, load3(PLANE(contacts, CONTACT_R), stride, slot));
+        crossed = as_uint(PLANE(path_media, CONTACT_MEDIA)[slot]);
+        passed = mul3(passed, load3(PLANE(path_media, CONTACT_R), stride, slot));
     } else {
         crossed = cross_boundary(
             stack, material->medium, triangles + TRIANGLE_FLOATS * primitive, direction);
@@ -57,16 +56,23 @@ kernel void refract_boundary(
     const Sample2 u = unit_pair(scattering_pair(seed, index, branch, scattering, PAIR_DIRECTION));
     const float choice =
         unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
-    const DielectricSample s = dielectric_sample(
-        to_local(frame, scale3(direction, -1.0f)), material->alpha, refractive_index(media, stack),
-        refractive_index(media, crossed), u, choice);
-    const Vec3 wi = to_world(frame, s.wi);
+    const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
+    const float ior_i = refractive_index(media, stack);
+    const float ior_t = refractive_index(media, crossed);
+    const DielectricSample s = dielectric_sample(wo, material->alpha, ior_i, ior_t, u, choice);
+    const Vec3 side = scale3(ng, s.reflects ? 1.0f : -1.0f);
+    Vec3 wi = to_world(frame, s.wi);
+    float pdf_w = s.pdf_w;
+    if (HAS_SHADING_NORMALS) {
+        wi = select3(dot3(side, wi) < 0.0f, mirror3(wi, ng), wi);
+        if (ROUGH_DIELECTRICS && pdf_w != PDF_CERTAIN)
+            pdf_w = dielectric_towards(frame, ng, wo, wi, material->alpha, ior_i, ior_t).pdf_w;
+    }
 
     const Vec3 one = vec3(1.0f, 1.0f, 1.0f);
     const Vec3 throughput = mul3(
         load3(PLANE(throughputs, THROUGHPUT_R), stride, slot),
         scale3(select3(s.reflects, one, passed), s.weight));
-    const Vec3 side = scale3(ng, s.reflects ? 1.0f : -1.0f);
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= dot3(side, wi) <= 0.0f ? 0.0f : 1.0f;
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN
@@ -77,7 +83,7 @@ kernel void refract_boundary(
         leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), side));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
-    PLANE(throughputs, THROUGHPUT_PDF)[slot] = s.pdf_w;
+    PLANE(throughputs, THROUGHPUT_PDF)[slot] = pdf_w;
     PLANE(path_media, MEDIUM_STACK)[slot] = as_float(s.reflects ? stack : crossed);
     PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
     if (HAS_GUIDE) PLANE(hits, HIT_WORTH)[slot] = 1.0f;

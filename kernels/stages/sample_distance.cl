@@ -69,15 +69,17 @@ kernel void sample_distance(
             load3(radiance, stride, slot), mul3(mul3(throughput, emission), reaching),
             resumed ? 0.0f : length));
 
-    const int scatters = MEDIA_SCATTER && max_component3(scattering_of(medium)) > 0.0f;
+    // between faces that touch a stop would not be on the side of all that it was on
+    const float least = PLANE(path_media, MEDIUM_TOUCHING)[slot];
+    const int scatters =
+        MEDIA_SCATTER && (max_component3(scattering_of(medium)) > 0.0f) & (length > least);
     uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
     int branching = 0;
     if (HAS_SPLITS) {
         const uint stacked = PLANE(ids, ID_STACK)[slot];
         const uint level = resumed ? stacked - 1 : stacked;
         const int first = (stacked & 1u) == 0u && level < BRANCH_LEVELS * params.split_depth;
-        branching =
-            resumed | (scatters & first & (DISTANCES != DISTANCE_EXPONENTIAL) & (length > 0.0f));
+        branching = resumed | (scatters & first & (DISTANCES != DISTANCE_EXPONENTIAL));
         if (branching) {
             global float* segment = branch_at(branches, stride, level);
             if (!resumed) {
@@ -127,7 +129,7 @@ kernel void sample_distance(
             event.weight = select3(branching, child, event.weight);
         }
     }
-    // a medium that does not scatter is passed for certain
+    // what does not scatter is passed for certain
     event.stops = scatters ? event.stops : 0;
     event.weight = select3(scatters, event.weight, transmittance(tau));
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, mul3(throughput, event.weight));

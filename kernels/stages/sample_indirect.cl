@@ -81,7 +81,11 @@ kernel void sample_indirect(
     // a direction that is no number makes the throughput none, which accumulate finds
     const float spoilt = 0.0f * (wi.x + wi.y + wi.z);
     const Vec3 weight = vec3(s.weight.x + spoilt, s.weight.y + spoilt, s.weight.z + spoilt);
-    const Vec3 throughput = mul3(child.carried, weight);
+    Vec3 throughput = mul3(child.carried, weight);
+    if (HAS_MEDIA & HAS_CONTACTS & (side < 0.0f)) {
+        PLANE(path_media, MEDIUM_STACK)[slot] = PLANE(path_media, CONTACT_MEDIA)[slot];
+        throughput = mul3(throughput, load3(PLANE(path_media, CONTACT_R), stride, slot));
+    }
     // A direction along the face would leak light through it: it counts as absorbed.
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= (!guided & (side * s.wi.z <= 0.0f)) ? 0.0f : 1.0f;

@@ -80,19 +80,30 @@ std::vector<uint32_t> bodies_of_triangles(const Scene& scene, const NormalisedSc
     return bodies;
 }
 
+// Whether a face of the same mesh is no other surface. A body's own boundaries go on in one
+// another, but may lie back to back; what else the mesh holds goes on in them at common corners
+// alone.
+bool goes_on_in(const Triangle& face, const Triangle& other, const Material& material) {
+    if (material.boundary != Boundary::opaque) return dot(other.normal, face.normal) > 0;
+    return std::ranges::find_first_of(face.corners, other.corners) != face.corners.end();
+}
+
 }  // namespace
 
 bool has_contacts(const Scene& scene, const NormalisedScene& geometry, const Bvh& bvh) {
     const std::vector<uint32_t> bodies = bodies_of_triangles(scene, geometry);
+    const auto is_wall = [](const Material& material) {
+        return material.boundary == Boundary::opaque && material.transmission > 0;
+    };
     for (std::size_t t = 0; t < geometry.triangle_count(); ++t) {
-        if (scene.materials[geometry.materials[t]].boundary != Boundary::dielectric) continue;
+        const Material& glass = scene.materials[geometry.materials[t]];
+        if (glass.boundary != Boundary::dielectric && !is_wall(glass)) continue;
         const Triangle face = triangle_at(geometry, t);
         const bool touched = any_near(bvh, face, [&](std::size_t other) {
             const Material& material = scene.materials[geometry.materials[other]];
-            if (material.boundary == Boundary::opaque && material.transmission > 0) return false;
+            if (is_wall(material)) return false;
             const Triangle near = triangle_at(geometry, other);
-            // a body's own faces go on in one another, but may lie back to back
-            if (bodies[other] == bodies[t] && dot(near.normal, face.normal) > 0) return false;
+            if (bodies[other] == bodies[t] && goes_on_in(face, near, material)) return false;
             return touches(face, near);
         });
         if (touched) return true;

@@ -79,7 +79,7 @@ std::optional<LightGuide> guide_to_lights(
     const LightGuide guide = sphere_about(lamps);
     if (guide.radius > largest_radius) return std::nullopt;
 
-    const double extinction = extinction_around(scene, geometry, media, guide.centre);
+    const double extinction = extinction_around(scene, media, guide.centre);
     if (extinction > 0 && extinction * guide.radius < 1) return guide;
 
     const std::size_t step = lamps.size() / lights_looked_at + 1;

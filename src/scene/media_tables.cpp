@@ -9,158 +9,12 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
 namespace wavepath {
 
 namespace {
-
-using Point = std::array<float, 3>;
-
-Vec3d minus(const Point& a, const Vec3d& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-double length(const Vec3d& a) {
-    return std::sqrt(dot(a, a));
-}
-
-// The triangles of the instances that enclose media together.
-struct Body {
-    std::vector<std::array<Point, 3>> triangles;
-    std::set<uint32_t> boundaries;  // materials of the triangles that let light in
-    std::string name;
-    Point low{2, 2, 2};  // of its bounding box; the scene is 1 wide
-    Point high{-2, -2, -2};
-
-    void add(const std::array<Point, 3>& triangle) {
-        triangles.push_back(triangle);
-        for (const Point& p : triangle)
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], p[k]);
-                high[k] = std::max(high[k], p[k]);
-            }
-    }
-
-    double volume() const {
-        double sum = 0;
-        for (const auto& [a, b, c] : triangles)
-            sum += determinant(minus(a, {}), minus(b, {}), minus(c, {})) / 6;
-        return sum;
-    }
-
-    // Around a point: 1 inside, 0 outside; in between where the mesh is open [Van Oosterom &
-    // Strackee 1983; Jacobson 2013].
-    double winding(const Vec3d& point) const {
-        for (std::size_t k = 0; k < 3; ++k)
-            if (point[k] < low[k] || point[k] > high[k]) return 0;
-        double sum = 0;
-        for (const auto& [pa, pb, pc] : triangles) {
-            const Vec3d a = minus(pa, point);
-            const Vec3d b = minus(pb, point);
-            const Vec3d c = minus(pc, point);
-            const double la = length(a);
-            const double lb = length(b);
-            const double lc = length(c);
-            sum += std::atan2(
-                determinant(a, b, c),
-                la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-        }
-        return sum / (2 * std::numbers::pi);
-    }
-
-    // Every edge is run through as often one way as the other.
-    bool is_closed() const { return is_closed_but_for(Exact{}) || is_closed_but_for(Welded{}); }
-
-  private:
-    struct Exact {
-        const Point& operator()(const Point& p) const { return p; }
-    };
-
-    // Exporters round a corner differently in each of its triangles: those closer than 2^-21 are
-    // one.
-    class Welded {
-      public:
-        const Point& operator()(const Point& p) {
-            constexpr double cells = 0x1p20;
-            Cell cell;
-            for (std::size_t k = 0; k < 3; ++k) cell[k] = std::lround(cells * p[k]);
-            for (long x = -1; x <= 1; ++x)
-                for (long y = -1; y <= 1; ++y)
-                    for (long z = -1; z <= 1; ++z) {
-                        const auto found = corners_.find({cell[0] + x, cell[1] + y, cell[2] + z});
-                        if (found != corners_.end() && is_near(found->second, p))
-                            return found->second;
-                    }
-            return corners_.emplace(cell, p).first->second;
-        }
-
-      private:
-        using Cell = std::array<long, 3>;
-
-        static bool is_near(const Point& a, const Point& b) {
-            constexpr float apart = 0x1p-21F;
-            return std::abs(a[0] - b[0]) < apart && std::abs(a[1] - b[1]) < apart &&
-                   std::abs(a[2] - b[2]) < apart;
-        }
-
-        std::map<Cell, Point> corners_;
-    };
-
-    template <typename Weld>
-    bool is_closed_but_for(Weld weld) const {
-        std::map<std::pair<Point, Point>, int> edges;
-        for (const auto& t : triangles) {
-            const Point corners[3] = {weld(t[0]), weld(t[1]), weld(t[2])};
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Point& a = corners[k];
-                const Point& b = corners[(k + 1) % 3];
-                if (a != b) edges[std::minmax(a, b)] += a < b ? 1 : -1;
-            }
-        }
-        return std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
-    }
-};
-
-std::vector<Body> bodies_with_media(const Scene& scene, const NormalisedScene& geometry) {
-    std::map<uint32_t, Body> bodies;
-    std::set<uint32_t> wanted;
-    for (const Instance& instance : scene.instances)
-        if (scene.materials[scene.primitives[instance.primitive].material].boundary !=
-            Boundary::opaque)
-            wanted.insert(instance.body);
-    uint32_t first = 0;
-    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        const Instance& instance = scene.instances[i];
-        const uint32_t end = geometry.ends[i];
-        if (wanted.contains(instance.body)) {
-            const Primitive& primitive = scene.primitives[instance.primitive];
-            Body& body = bodies[instance.body];
-            if (body.name.empty()) body.name = primitive.name;
-            if (scene.materials[primitive.material].boundary != Boundary::opaque)
-                body.boundaries.insert(primitive.material);
-            for (uint32_t t = first; t < end; ++t) {
-                const float* p = &geometry.positions[std::size_t{9} * t];
-                body.add(
-                    {Point{p[0], p[1], p[2]}, Point{p[3], p[4], p[5]}, Point{p[6], p[7], p[8]}});
-            }
-        }
-        first = end;
-    }
-    std::vector<Body> found;
-    found.reserve(bodies.size());
-    for (auto& [number, body] : bodies)  // of a flattened mesh nothing is left
-        if (!body.triangles.empty()) found.push_back(std::move(body));
-    return found;
-}
 
 constexpr int stack_height = 4;  // of MEDIUM_STACK
 
@@ -201,12 +55,16 @@ std::string warning_of_extinction(const Scene& scene, uint32_t index, double met
     return free_paths > seen ? found + ", which single precision renders up to 5 % too dark" : "";
 }
 
-Vec3d vertex_of(const Body& body) {
-    return minus(body.triangles.front().front(), {});
+Vec3d point(const MediaBody::Point& p) {
+    return {p[0], p[1], p[2]};
+}
+
+Vec3d vertex_of(const MediaBody& body) {
+    return point(body.triangles.front().front());
 }
 
 // The media that a body's faces bound: rows + 1.
-std::set<uint32_t> rows_of(const Body& body, const MediaTables& tables) {
+std::set<uint32_t> rows_of(const MediaBody& body, const MediaTables& tables) {
     std::set<uint32_t> rows;
     for (const uint32_t m : body.boundaries) rows.insert(tables.rows[m]);
     return rows;
@@ -214,17 +72,19 @@ std::set<uint32_t> rows_of(const Body& body, const MediaTables& tables) {
 
 // A body whose faces look inwards ends the medium of one around it: a hollow in glass. Without one,
 // the medium that it begins outside would fill the space without bound.
-bool is_hollow(const Body& body, const std::vector<Body>& bodies, const MediaTables& tables) {
-    return std::ranges::any_of(bodies, [&](const Body& other) {
+bool is_hollow(
+    const MediaBody& body, const std::vector<MediaBody>& bodies, const MediaTables& tables) {
+    return std::ranges::any_of(bodies, [&](const MediaBody& other) {
         return &other != &body && rows_of(other, tables) == rows_of(body, tables) &&
                other.winding(vertex_of(body)) > 0.25;  // or touches its surface
     });
 }
 
 // Into a body that lies inside too many others light could not be followed.
-void check_nesting(const Scene& scene, const Body& body, const std::vector<Body>& bodies) {
+void check_nesting(
+    const Scene& scene, const MediaBody& body, const std::vector<MediaBody>& bodies) {
     double around = 0;  // hollows count -1
-    for (const Body& other : bodies)
+    for (const MediaBody& other : bodies)
         if (&other != &body) around += std::round(other.winding(vertex_of(body)));
     if (around < double{stack_height}) return;
     throw Error(
@@ -273,7 +133,7 @@ uint32_t row_of(const DeviceMedium& medium, std::vector<DeviceMedium>& media) {
 
 // Whether the film rectangle of an orthographic camera may meet the triangle: the box, in pixels,
 // of where the triangle cuts the film's plane overlaps the film.
-bool cuts_film(const std::array<Point, 3>& triangle, const RenderParams& params) {
+bool cuts_film(const MediaBody::Triangle& triangle, const RenderParams& params) {
     const Vec3d corner{params.corner_x, params.corner_y, params.corner_z};
     const Vec3d normal{params.camera_x, params.camera_y, params.camera_z};
     const Vec3d right{params.right_x, params.right_y, params.right_z};
@@ -281,8 +141,8 @@ bool cuts_film(const std::array<Point, 3>& triangle, const RenderParams& params)
     double low[2] = {1e300, 1e300};
     double high[2] = {-1e300, -1e300};
     for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3d a = minus(triangle[k], corner);
-        const Vec3d b = minus(triangle[(k + 1) % 3], corner);
+        const Vec3d a = minus(point(triangle[k]), corner);
+        const Vec3d b = minus(point(triangle[(k + 1) % 3]), corner);
         const double da = dot(a, normal);
         const double db = dot(b, normal);
         if (da * db > 0) continue;
@@ -303,8 +163,9 @@ bool cuts_film(const std::array<Point, 3>& triangle, const RenderParams& params)
 MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geometry) {
     MediaTables tables;
     tables.rows.assign(scene.materials.size(), 0);
-    const std::vector<Body> bodies = bodies_with_media(scene, geometry);
-    for (const Body& body : bodies)
+    tables.bodies = bodies_with_media(scene, geometry);
+    const std::vector<MediaBody>& bodies = tables.bodies;
+    for (const MediaBody& body : bodies)
         for (const uint32_t m : body.boundaries) {
             if (tables.rows[m] > 0) continue;
             const Material& material = scene.materials[m];
@@ -321,9 +182,9 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
     std::vector<std::string> patched;
     std::vector<std::string> open;
     std::vector<std::string> flat;
-    for (const Body& body : bodies) {
+    for (const MediaBody& body : bodies) {
         if (rows_of(body, tables).size() > 1) patched.push_back(body.name);
-        if (!body.is_closed())
+        if (!body.closed)
             open.push_back(body.name);
         else if (std::abs(body.volume()) <= 1e-12)  // what rounding leaves of none
             flat.push_back(body.name);
@@ -362,14 +223,10 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
     return tables;
 }
 
-double extinction_around(
-    const Scene& scene,
-    const NormalisedScene& geometry,
-    const MediaTables& tables,
-    const Vec3d& point) {
+double extinction_around(const Scene& scene, const MediaTables& tables, const Vec3d& point) {
     double largest = 0;
     if (!tables.scatter) return largest;
-    for (const Body& body : bodies_with_media(scene, geometry)) {
+    for (const MediaBody& body : tables.bodies) {
         if (body.winding(point) < 0.5) continue;
         for (const uint32_t m : body.boundaries) {
             if (!scene.materials[m].medium.scatters()) continue;
@@ -383,17 +240,14 @@ double extinction_around(
 }
 
 uint32_t media_at_camera(
-    const Scene& scene,
-    const NormalisedScene& geometry,
-    const MediaTables& tables,
-    const RenderParams& params) {
+    const Scene& scene, const MediaTables& tables, const RenderParams& params) {
     if (tables.media.empty()) return 0;
     const bool orthographic = params.orthographic != 0;
     const Vec3d camera = orthographic ? Vec3d{params.corner_x, params.corner_y, params.corner_z}
                                       : Vec3d{params.camera_x, params.camera_y, params.camera_z};
     std::vector<std::pair<float, uint32_t>> around;  // volume, row + 1
     std::vector<uint32_t> hollow;                    // row + 1
-    for (const Body& body : bodies_with_media(scene, geometry)) {
+    for (const MediaBody& body : tables.bodies) {
         const auto cuts = [&](const auto& triangle) { return cuts_film(triangle, params); };
         if (orthographic && std::ranges::any_of(body.triangles, cuts))
             throw Error(
@@ -402,8 +256,9 @@ uint32_t media_at_camera(
                 scene.name, body.name);
         const double winding = body.winding(camera);
         for (const uint32_t row : rows_of(body, tables)) {
-            if (winding > 0.5) around.emplace_back(static_cast<float>(body.volume()), row);
-            if (winding < -0.5) hollow.push_back(row);
+            for (long k = std::lround(winding); k > 0; --k)  // shells of one mesh may cross
+                around.emplace_back(static_cast<float>(body.volume()), row);
+            for (long k = std::lround(winding); k < 0; ++k) hollow.push_back(row);
         }
     }
     // of bodies with the same faces the one later in the file stays behind, as for paths

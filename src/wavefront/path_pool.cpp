@@ -16,6 +16,11 @@ uint32_t surface_planes(const Features& features) {
     return features.shading_normals() ? SURFACE_PLANES_SHADED : SURFACE_PLANES_FLAT;
 }
 
+uint32_t medium_planes(const Features& features) {
+    if (!features.media) return 0;
+    return features.contacts ? MEDIUM_PLANES : MEDIUM_PLANES_APART;
+}
+
 }  // namespace
 
 PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& features)
@@ -32,8 +37,7 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
               ? std::size_t{features.media ? SHADOW_PLANES : SHADOW_PLANES_CLEAR} * stride
               : 0,
           "path pool"),
-      media(device, features.media ? std::size_t{MEDIUM_PLANES} * stride : 0, "path pool"),
-      contacts(device, features.contacts ? std::size_t{CONTACT_PLANES} * stride : 0, "path pool"),
+      media(device, std::size_t{medium_planes(features)} * stride, "path pool"),
       branches(
           device,
           static_cast<std::size_t>(features.media ? 2 * BRANCH_PLANES : BRANCH_PLANES_SURFACE) *
@@ -51,9 +55,9 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
 
 std::size_t PathPool::bytes() const {
     return rays.bytes() + hits.bytes() + surfaces.bytes() + throughputs.bytes() +
-           radiances.bytes() + shadows.bytes() + media.bytes() + contacts.bytes() +
-           branches.bytes() + ids.bytes() + fates.bytes() + chunk_states.bytes() + holes.bytes() +
-           movers.bytes() + statistics.bytes();
+           radiances.bytes() + shadows.bytes() + media.bytes() + branches.bytes() + ids.bytes() +
+           fates.bytes() + chunk_states.bytes() + holes.bytes() + movers.bytes() +
+           statistics.bytes();
 }
 
 }  // namespace wavepath

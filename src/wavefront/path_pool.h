@@ -16,7 +16,6 @@ struct PathPool {
     DeviceArray<cl_float> rays, hits, surfaces, throughputs, radiances;
     DeviceArray<cl_float> shadows;   // only where lights are sampled
     DeviceArray<cl_float> media;     // only in scenes with media
-    DeviceArray<cl_float> contacts;  // only where something touches glass
     DeviceArray<cl_float> branches;  // only with --splits
     DeviceArray<cl_uint> ids;
 

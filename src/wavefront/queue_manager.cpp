@@ -142,8 +142,7 @@ bool QueueManager::render(
         if (find_contacts_)
             find_contacts_->launch(
                 device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
-                scene_.materials, scene_.textures, pool_.rays, pool_.media, pool_.ids, pool_.hits,
-                pool_.contacts);
+                scene_.materials, scene_.textures, pool_.rays, pool_.media, pool_.ids, pool_.hits);
         if (sample_distance_)
             sample_distance_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.lights, scene_.media,
@@ -175,8 +174,7 @@ bool QueueManager::render(
             direct_light_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.lights,
                 scene_.environment, scene_.media, scene_.textures, pool_.rays, pool_.hits,
-                pool_.surfaces, pool_.throughputs, pool_.ids, pool_.media, pool_.contacts,
-                pool_.shadows);
+                pool_.surfaces, pool_.throughputs, pool_.ids, pool_.media, pool_.shadows);
         if (occlusion_)
             occlusion_->launch(
                 device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
@@ -189,8 +187,7 @@ bool QueueManager::render(
         if (refract_boundary_)
             refract_boundary_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,
-                pool_.surfaces, pool_.contacts, pool_.rays, pool_.media, pool_.hits,
-                pool_.throughputs, pool_.ids);
+                pool_.surfaces, pool_.rays, pool_.media, pool_.hits, pool_.throughputs, pool_.ids);
         sample_indirect_.launch(
             device_, slots, params_, slots, scene_.materials, pool_.surfaces, pool_.rays,
             pool_.hits, pool_.throughputs, pool_.ids, pool_.media, pool_.branches);

@@ -145,7 +145,6 @@ class QueueManager {
         Floats,
         Floats,
         Uints,
-        Floats,
         Floats>>
         find_contacts_;
     std::optional<Stage<
@@ -194,7 +193,6 @@ class QueueManager {
         Floats,
         Floats,
         Floats,
-        Floats,
         Uints>>
         refract_boundary_;
     std::optional<Stage<
@@ -211,7 +209,6 @@ class QueueManager {
         Floats,
         Floats,
         Uints,
-        Floats,
         Floats,
         Floats>>
         direct_light_;

@@ -221,7 +221,8 @@ RenderResult render(
     result.times.normalise = watch.lap();
     Bvh bvh = build_bvh(geometry.positions);
     if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
-    features.contacts = features.dielectrics && has_contacts(scene, geometry, bvh);
+    features.contacts =
+        (features.dielectrics || features.transmission) && has_contacts(scene, geometry, bvh);
     result.times.bvh_build = watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
     // for memory together.
@@ -237,7 +238,7 @@ RenderResult render(
         params.guide_z = static_cast<float>(guide->centre[2]);
         params.guide_radius2 = static_cast<float>(guide->radius * guide->radius);
     }
-    params.camera_media = media_at_camera(scene, geometry, media, params);
+    params.camera_media = media_at_camera(scene, media, params);
     const cl::Program program = build_program(
         device, assemble_source(features.defines(), QueueManager::kernel_files(features)),
         &result.program);

@@ -31,7 +31,10 @@ TEST(Contacts, AreFoundWhereFacesLieOnOneAnother) {
     EXPECT_FALSE(touched(besides)) << "in one plane, but apart";
     Scene curtain = block_on(0);
     curtain.materials.back().transmission = 1;
-    EXPECT_FALSE(touched(curtain)) << "thin walls do not count";
+    EXPECT_TRUE(touched(curtain)) << "thin walls count";
+    Material wall = lambert(grey(1));
+    wall.transmission = 1;
+    EXPECT_TRUE(touched(block_on(0, wall))) << "on what is opaque, too";
 }
 
 TEST(Contacts, OfABodyWithItselfAreBackToBack) {

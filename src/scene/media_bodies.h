@@ -1,0 +1,37 @@
+// The bodies that enclose media: which triangles bound one together.
+#pragma once
+
+#include "scene/normalise.h"
+#include "scene/scene.h"
+
+#include <array>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace wavepath {
+
+struct MediaBody {
+    using Point = std::array<float, 3>;  // [normalised]
+    using Triangle = std::array<Point, 3>;
+
+    std::vector<Triangle> triangles;
+    std::set<uint32_t> boundaries;  // materials of the triangles that let light in
+    std::string name;               // of its primitive
+    bool closed = false;            // every edge is run through as often one way as the other
+    Point low{2, 2, 2};             // of its bounding box; the scene is 1 wide
+    Point high{-2, -2, -2};
+
+    double volume() const;  // below 0: its faces look inwards
+
+    // Around a point: how often the body is around it; no integer where its mesh is open
+    // [Van Oosterom & Strackee 1983; Jacobson 2013].
+    double winding(const Vec3d& point) const;
+};
+
+// Every closed piece of a mesh's boundaries is a body. Boundaries of a mesh that do not close by
+// themselves are one with all other triangles of the mesh: mirrors may close it. A mesh that two
+// nodes place is two. In the order of the file.
+std::vector<MediaBody> bodies_with_media(const Scene& scene, const NormalisedScene& geometry);
+
+}  // namespace wavepath
