@@ -80,22 +80,23 @@ TEST(MediaPhase, OfUniformDirectionsIsInvisibleAtOneTemperature) {
     EXPECT_TRUE(has_mean(image_mean(render_for({}, scene, settings)), 1));
 }
 
-// A square lamp of half a metre shines down on a ray half a metre below it that ends at a black
-// wall; single scattering by quadrature. Another lamp on its back takes nine tenths of the light
-// points, so that directions, aimed or not, count as much.
+// A square lamp of half a metre shines down on a ray that leaves half a metre below it, into fog
+// that throws its light back, and ends at a black wall; single scattering by quadrature. Another
+// lamp on its back takes nine tenths of the light points, so that directions, aimed or not, count
+// as much.
 TEST(MediaPhase, OfAirlightOfALampHasOneMeanByAllDirections) {
-    constexpr double truth = .01203106244;
+    constexpr double truth = .010338073016;
     Scene scene = scene_named("lamp in fog");
-    add_box(scene, boundary_of(medium_of(0.5, 1, 0.5)), {-3, -3, -3}, {3, 3, 3}, Facing::outward);
+    add_box(scene, boundary_of(medium_of(0.5, 1, -0.6)), {-3, -3, -3}, {3, 3, 3}, Facing::outward);
     add_square(scene, lambert(grey(0), grey(1)), {0, 0, 0.5}, {0, 0, -1}, 0.5);
     add_square(scene, lambert(grey(0), grey(9)), {0, 0, 0.51}, {0, 0, 1}, 0.5);
-    add_square(scene, lambert(grey(0)), {0.1, 1.5, 0}, {0, -1, 0}, 0.5);
+    add_square(scene, lambert(grey(0)), {0.1, 1.7, 0}, {0, -1, 0}, 0.5);
     const struct { bool guide, phase; } ways[] = {{true, true}, {true, false}, {false, false}};
     // most light points and most directions see nothing: .5 % would take a minute each
     const Strictness strictness{.bias = 0.02, .tests = std::size(ways), .truth_error = 1e-6};
     for (const auto& way : ways) {
         RenderSettings settings =
-            square_settings("mis", orthographic({0.1, -1.5, 0}, {0.1, 0, 0}, 1e-4), 16, 1024);
+            square_settings("mis", orthographic({0.1, 0.2, 0}, {0.1, 1, 0}, 1e-4), 16, 1024);
         settings.termination = {TerminationKind::depth, 1, 1};
         settings.method.distances = Distances::equiangular;
         settings.method.guide = way.guide;
