@@ -211,5 +211,41 @@ TEST(Contact, LampUnderTurbidGlass) {
     }
 }
 
+// A rough pane on what holds a lamp, fog that its boundary tints or a liquid: connections from the
+// pane's lower face lie in it and carry its tint, as the paths do that light points know nothing
+// of.
+TEST(Contact, LampBelowARoughPaneIsLitAlike) {
+    Medium absorbing = medium_of(0, 0);
+    absorbing.sigma_a = {0.2F, 1, 0};
+    Material pane = glass(1.5);
+    pane.roughness = 0.5F;
+    Material fog = boundary_of(absorbing);
+    fog.base_color = {0.4F, 1, 1};
+    Material liquid = glass(1.33, absorbing);
+    liquid.roughness = pane.roughness;  // of two faces in one plane either may be met
+    const struct {
+        const char* what;
+        const Material& below;
+        const char* method;
+    } cases[] = {{"fog", fog, "direct"}, {"fog", fog, "mis"}, {"liquid", liquid, "mis"}};
+    const Strictness strictness{.bias = .02, .tests = 2 * std::size(cases)};
+    for (const auto& [what, below, method] : cases) {
+        Scene scene = scene_named("lamp");
+        add_box(scene, pane, {-2, -2, -0.1}, {2, 2, 0}, Facing::outward);
+        add_box(scene, below, {-2, -2, -2}, {2, 2, -0.1}, Facing::outward);
+        add_square(scene, lambert(grey(0), grey(1)), {0, 0, -1}, {0, 0, 1}, 1);
+        const auto lit = [&](const char* by) {
+            const Strictness each{.bias = .02 / 1.5, .tests = strictness.tests};
+            return render_for(each, scene, square_settings(by, along(1), 16, 256), "G");
+        };
+        const RenderResult connected = lit(method);
+        const RenderResult met = lit("bsdf");
+        for (const char* channel : {"R", "G"})
+            EXPECT_TRUE(
+                agree(shared_mean(connected, channel), shared_mean(met, channel), strictness))
+                << what << ", " << method << ", " << channel;
+    }
+}
+
 }  // namespace
 }  // namespace wavepath

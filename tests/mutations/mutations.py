@@ -236,6 +236,21 @@ MUTATIONS = [
     ("aimed directions in media keep the density of the phase function", "stages/scatter_medium.cl",
      "s.pdf_w = mixture;", "",
      "MediaPhase.OfAirlightOfALampHasOneMeanByAllDirections"),
+    ("light points behind rough glass see air in what touches it", "stages/direct_light.cl",
+     "crossed = HAS_CONTACTS ?", "crossed = 0 ?",
+     "Contact.LampBelowARoughPaneIsLitAlike"),
+    ("filters on rough glass do not tint light points", "stages/direct_light.cl",
+     "if (HAS_CONTACTS) passed = mul3(passed, load3(PLANE(contacts, CONTACT_R), stride, slot));", "",
+     "Contact.LampBelowARoughPaneIsLitAlike"),
+    ("refracted paths push the outermost medium out", "stages/refract_boundary.cl",
+     "passed = scale3(passed, weight_of_crossing(stack, crossed, material->medium));", "",
+     "MediaBoundary.OfAFifthMediumIsFoundBehindGlass"),
+    ("glass among contacts pushes the outermost medium out", "stages/find_contacts.cl",
+     "const float weight = weight_of_crossing(before, stack, material->medium);", "const float weight = 1.0f;",
+     "MediaBoundary.OfAFifthMediumIsFoundBehindGlass"),
+    ("what touches glass pushes the outermost medium out", "stages/find_contacts.cl",
+     "tint = scale3(tint, weight_of_crossing(stack, crossed, material->medium));", "",
+     "MediaBoundary.OfAFifthMediumIsFoundBehindGlass"),
 ]
 
 
