@@ -180,5 +180,29 @@ TEST(MediaStability, SameBytesOfPoolsWithSplits) {
     EXPECT_EQ(first.rays.connections, late.rays.connections);
 }
 
+// The same with glass in the fog, smooth and rough, with a liquid between two pieces of it, and all
+// on the floor.
+TEST(MediaStability, SameBytesOfGlassThatTouches) {
+    Scene scene = foggy_room();
+    Material rough = glass(1.5);
+    rough.roughness = 0.4F;
+    const Material liquid = glass(1.33, medium_of(1, 0.5));
+    add_box(scene, glass(1.5), {-0.1, -1, 0}, {0.5, -0.6, 0.5}, Facing::outward);
+    add_box(scene, liquid, {-0.1, -0.6, 0}, {0.5, -0.4, 0.5}, Facing::outward);
+    add_box(scene, rough, {-0.1, -0.4, 0}, {0.5, -0.35, 0.5}, Facing::outward);
+    add_icosphere(scene, rough, {-0.5, -0.75, 0.5}, 0.25, 2);
+    RenderSettings settings = square_settings("mis", in_the_fog, 37, 2);
+    settings.height = 23;
+    settings.method.distances = Distances::mis;
+    settings.splits = {2, 2, 2};
+    settings.split_depth = 2;
+    const RenderResult first = render_scene(scene, settings);
+    settings.pool = 300;
+    expect_same(first, render_scene(scene, settings));
+    settings.pool = 0;
+    settings.work_groups = {16, 64};
+    expect_same(first, render_scene(scene, settings));
+}
+
 }  // namespace
 }  // namespace wavepath
