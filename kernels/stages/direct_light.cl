@@ -52,6 +52,7 @@ kernel void direct_light(
     float alpha = 1.0f;
     float ior_i = 1.0f;
     float ior_t = 1.0f;
+    float weight_behind = 1.0f;
     if (HAS_DIELECTRICS) {
         global const DeviceMaterial* material =
             materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
@@ -61,6 +62,8 @@ kernel void direct_light(
                                    : cross_boundary(
                                          stack, material->medium,
                                          triangles + TRIANGLE_FLOATS * primitive, direction);
+            weight_behind =
+                HAS_CONTACTS ? 1.0f : weight_of_crossing(stack, crossed, material->medium);
             alpha = material->alpha;
             ior_i = refractive_index(media, stack);
             ior_t = refractive_index(media, crossed);
@@ -147,7 +150,8 @@ kernel void direct_light(
     if (ROUGH_DIELECTRICS) {
         const DielectricValue v = dielectric_towards(frame, ng, wo, s.wi, alpha, ior_i, ior_t);
         const int beyond = dot3(ng, s.wi) < 0.0f;
-        const Vec3 tint = select3(beyond, surface.base, vec3(1.0f, 1.0f, 1.0f));
+        const Vec3 tint =
+            select3(beyond, scale3(surface.base, weight_behind), vec3(1.0f, 1.0f, 1.0f));
         f = select3(refracts, scale3(tint, v.value), f);
         pdf_w = refracts ? v.pdf_w : pdf_w;
         side = refracts ? (beyond ? -1.0f : 1.0f) : side;
