@@ -1,4 +1,4 @@
-// Glass: a pane, an absorbing ball, a pane over a floor, slabs of scattering media, n^2 inside, and
+// Glass: a pane, a pane over a floor, slabs of scattering media, n^2 inside, and
 // microfacets.
 #include "support/media.h"
 #include "support/rendering.h"
@@ -171,45 +171,6 @@ TEST(Dielectric, AtOneTemperatureIsInvisible) {
     const RenderResult result = render_for(strictness, scene, settings);
     for (const char* channel : channels)
         EXPECT_TRUE(has_mean(image_mean(result, channel), 1, strictness)) << channel;
-}
-
-// L = R + (1 - R)^2 t / (1 - R t) in a uniform environment, t along the chord inside; n = 1.5,
-// sigma_a R = 0.25, through the centre.
-TEST(Dielectric, BallAbsorbs) {
-    Scene scene = scene_named("ball");
-    scene.environment = constant_environment(1);
-    constexpr int subdivisions = 5;
-    add_icosphere(scene, glass(1.5, medium_of(0.25, 0)), {0, 0, 0}, 1, subdivisions);
-    const Strictness strictness{.truth_error = icosphere_sagitta(subdivisions)};
-    const RenderResult result = render_for(
-        strictness, scene,
-        square_settings("mis", orthographic({0, 0, 2}, {0, 0, 0}, 0.02), 16, 256));
-    EXPECT_TRUE(has_mean(shared_mean(result), .6128773634, strictness));
-}
-
-// The same over the square abs(x), abs(y) < 0.6, by quadrature, for sigma_a R = 0.25, 0.5 and 1.
-// Near the rim facets are no sphere: they turn some rays inside beyond the critical angle, where
-// they stay and are absorbed, which takes 0.1 % off the whole disc.
-TEST(Dielectric, BallAbsorbsAwayFromItsCentre) {
-    constexpr double truth[] = {.6299092719, .4053282999, .1825763998};
-    constexpr int subdivisions = 6;
-    Medium medium;
-    medium.sigma_a = {0.25F, 0.5F, 1};
-    Scene scene = scene_named("ball");
-    scene.environment = constant_environment(1);
-    add_icosphere(scene, glass(1.5, medium), {0, 0, 0}, 1, subdivisions);
-    const double truth_error = 2 * icosphere_sagitta(subdivisions);
-    // blue is half of it what few paths reflect: 1 % will do there
-    const Strictness strictness[] = {
-        {.tests = 3, .truth_error = truth_error},
-        {.tests = 3, .truth_error = truth_error},
-        {.bias = 0.01, .tests = 3, .truth_error = truth_error}};
-    const RenderResult result = render_for(
-        strictness[2], scene,
-        square_settings("mis", orthographic({0, 0, 2}, {0, 0, 0}, 1.2), 64, 64), "B");
-    for (std::size_t c = 0; c < 3; ++c)
-        EXPECT_TRUE(has_mean(image_mean(result, channels[c]), truth[c], strictness[c]))
-            << channels[c];
 }
 
 // A camera inside sees n^2 of the radiance outside, whatever way it looks.
