@@ -46,6 +46,25 @@ TEST(Dielectric, PaneReflectsAndTransmits) {
     }
 }
 
+// Light that glass lets through is met by chance in every method: `direct` adds what its light
+// points cannot reach.
+TEST(Dielectric, PaneIsTheSameByEveryMethod) {
+    const Strictness strictness{.tests = 2 * methods().size(), .truth_error = 1e-6};
+    Scene sky = pane(glass(1.5, medium_of(0.5, 0)));
+    Scene lamp = sky;
+    sky.environment = constant_environment(1);
+    add_square(lamp, lambert(grey(0), grey(1)), {0, 0, -1.1}, {0, 0, 1}, 100);
+    for (const Method& method : methods()) {
+        SCOPED_TRACE(method.name);
+        const RenderSettings settings = square_settings(method.name, along(0.5), 16, 256);
+        EXPECT_TRUE(has_mean(
+            shared_mean(render_for(strictness, sky, settings)), .110977612649 + .450738834233,
+            strictness));
+        EXPECT_TRUE(has_mean(
+            shared_mean(render_for(strictness, lamp, settings)), .450738834233, strictness));
+    }
+}
+
 // The whole table, each of R and T by itself: a black plane below hides what is transmitted, a
 // white-hot one under a black sky shows it. The last column's T at 89 degrees would take 4 10^8
 // samples (0 here).
