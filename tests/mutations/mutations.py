@@ -180,7 +180,7 @@ MUTATIONS = [
      "wi = select3(dot3(side, wi) < 0.0f, mirror3(wi, ng), wi);", ";",
      "Dielectric.OfSmoothNormalsLosesNothing"),
     ("rough glass by half of its lobes", "materials/dielectric.cl",
-     "by_mirrored * m.pdf_w", "0.0f * m.pdf_w",
+     "by_mirrored * m.value", "0.0f * m.value",
      "RoughDielectric.OfSmoothNormalsIsLitAlike"),
     ("connections are not tinted", "stages/connect_through_media.cl",
      "value = mul3(value, tint_of_boundary(&cover, materials, &hit));", "",
