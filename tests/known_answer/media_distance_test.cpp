@@ -167,7 +167,7 @@ void expect_mean_in_a_cavity(const std::vector<Way>& ways, double bias) {
     }
 }
 
-// Where fog touches walls that emit, light points alone have no variance
+// Where fog touches walls that emit, light points alone have no finite variance
 // (SlopesWhereTheLightIsInTheFog below), nor have equiangular stops alone. The second is the notes'
 // own estimator of section 6, split as they do.
 TEST(MediaDistance, ChangesNoMeanInACavity) {
