@@ -42,12 +42,11 @@ TEST(MediaVariance, OfOneStopOnANeedle) {
     const struct {
         Distances distances;
         double tau, relative_variance;
-    } cases[] = {
-        {Distances::uniform, 1, .081976707},
-        {Distances::uniform, 5, 1.5339183},
-        {Distances::exponential, 0.1, 9.508},
-        {Distances::exponential, 1, .58198},
-        {Distances::truncated, 1, 0}};
+    } cases[] = {{Distances::uniform, 1, .081976707},  {Distances::uniform, 5, 1.5339183},
+                 {Distances::uniform, 10, 4.000454},   {Distances::uniform, 20, 9},
+                 {Distances::uniform, 100, 49},        {Distances::exponential, 0.01, 99.5},
+                 {Distances::exponential, 0.1, 9.508}, {Distances::exponential, 1, .58198},
+                 {Distances::truncated, 1, 0}};
     for (const auto& c : cases) {
         SCOPED_TRACE(fmt::format("{}, tau {}", name_of(c.distances), c.tau));
         const RenderResult result = render_scene(
@@ -127,8 +126,12 @@ TEST(MediaVariance, OfASlab) {
         {0.1, .0796595274, Distances::uniform, .0573673},
         {1, .2481882401, Distances::uniform, .735609},
         {5, .1584950295, Distances::uniform, 14.2736},
+        {20, .1534264125, Distances::uniform, 64.1778},
+        {100, .1534264125, Distances::uniform, 324.889},
         {0.1, .0796595274, Distances::truncated, .0564596},
-        {5, .1584950295, Distances::truncated, 2.78927}};
+        {5, .1584950295, Distances::truncated, 2.78927},
+        {20, .1534264125, Distances::truncated, 3.01598},
+        {100, .1534264125, Distances::truncated, 3.01598}};
     for (const auto& [tau, mean, distances, relative_variance] : cases) {
         SCOPED_TRACE(fmt::format("tau {}, {}", tau, name_of(distances)));
         Scene scene = slab(tau);
