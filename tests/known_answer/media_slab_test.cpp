@@ -38,7 +38,8 @@ TEST(MediaSlab, AbsorbsByBeerAndLambert) {
 }
 
 // MCML's benchmark [van de Hulst 1980: .09739 and .66096], each by itself: a sky above a black
-// floor, a floor that shines under a black sky. What is reflected is the noisier.
+// floor, a floor that shines under a black sky. What is reflected is the
+// noisier, and more of the plainest paths are had for the same work.
 TEST(MediaSlab, ReflectsAndTransmitsAsVanDeHulstSays) {
     for (const bool reflects : {true, false}) {
         SCOPED_TRACE(reflects ? "reflects" : "transmits");
@@ -48,8 +49,10 @@ TEST(MediaSlab, ReflectsAndTransmitsAsVanDeHulstSays) {
         add_floor(scene, lambert(grey(0), grey(reflects ? 0 : 1)));
         const Strictness strictness{.tests = 2, .truth_error = 2e-7};
         RenderSettings settings = square_settings("bsdf", along(1), 32, 256);
-        settings.method.distances = Distances::truncated;
-        settings.split_depth = 2;
+        if (!reflects) {
+            settings.method.distances = Distances::truncated;
+            settings.split_depth = 2;
+        }
         const RenderResult result = render_for(strictness, scene, settings);
         EXPECT_TRUE(
             has_mean(shared_mean(result), reflects ? .0973946387 : .6609577002, strictness));
