@@ -172,10 +172,10 @@ kernel void direct_light(
     t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
     const Vec3 origin = select3(in_medium, p, leave(p, scale3(ng, side)));
     const Vec3 to_light = sub3(s.p, origin);
-    if (HAS_MEDIA && HAS_AREA_LIGHTS)
-        t_max *= light->kind == LIGHT_TRIANGLE
-                     ? 1.0f + RAY_OFFSET / LEAST_COSINE / sqrt(dot3(to_light, to_light))
-                     : 1.0f;
+    if (HAS_MEDIA && HAS_AREA_LIGHTS) {
+        const float reach = 1.0f + RAY_OFFSET / LEAST_COSINE / sqrt(dot3(to_light, to_light));
+        t_max = (t_max > 0.0f) & (light->kind == LIGHT_TRIANGLE) ? reach : t_max;
+    }
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, to_light);
     PLANE(shadows, SHADOW_T_MAX)[slot] = t_max;
