@@ -174,7 +174,8 @@ kernel void direct_light(
     const Vec3 to_light = sub3(s.p, origin);
     if (HAS_MEDIA && HAS_AREA_LIGHTS) {
         const float reach = 1.0f + RAY_OFFSET / LEAST_COSINE / sqrt(dot3(to_light, to_light));
-        t_max = (t_max > 0.0f) & (light->kind == LIGHT_TRIANGLE) ? reach : t_max;
+        const int to_triangle = (t_max > 0.0f) & (light->kind == LIGHT_TRIANGLE);
+        t_max = to_triangle ? reach : t_max;
     }
     store3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot, origin);
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, to_light);
