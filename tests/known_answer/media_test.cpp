@@ -102,7 +102,7 @@ TEST(Media, HasCauchysMeanChord) {
         4 * std::numbers::pi / 3 / (2.01 * 2.01), strictness));
     constexpr int rows = 16;
     constexpr double cell = 1.15;
-    const Strictness of_boxes{.bias = 0.01, .tests = 2, .truth_error = 2e-4};
+    const Strictness of_boxes{.tests = 2, .truth_error = 2e-4};
     EXPECT_TRUE(has_mean(
         image_mean(render_for(
             of_boxes, turned_boxes(emitting(4, -0.9), rows, cell),

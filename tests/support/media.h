@@ -56,6 +56,12 @@ inline void add_mirrored_slab(Scene& scene, const Medium& medium) {
     split_off(scene, 12, metal(grey(1), 0));  // behind the faces of constant z
 }
 
+// What stands right below a plate of mirrors. It is wider than the plate: what leaves by the gap is
+// nothing.
+inline void add_floor(Scene& scene, const Material& material) {
+    add_square(scene, material, {0, 0, -1.0001}, {0, 0, 1}, 3);
+}
+
 // Looks at a plate's top under cos = mu, from a plane above it; beside the diagonal, on which two
 // triangles meet.
 inline Camera along(double mu) {
