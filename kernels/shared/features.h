@@ -59,6 +59,9 @@
 #ifndef HAS_MATCHED_MEDIA
 #define HAS_MATCHED_MEDIA 1  // some medium has the index of what is around it
 #endif
+#ifndef TINTED_BOUNDARIES
+#define TINTED_BOUNDARIES 1  // some index-matched boundary has a base colour
+#endif
 #ifndef HAS_CONTACTS
 #define HAS_CONTACTS 1  // something touches such a boundary
 #endif

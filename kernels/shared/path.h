@@ -126,9 +126,10 @@ enum ShadowPlane {
     SHADOW_DIRECTION_X,  // not unit: the light lies at t = 1
     SHADOW_DIRECTION_Y,
     SHADOW_DIRECTION_Z,
-    SHADOW_T_MAX,  // where the search for what is in the way ends: 1, or with HAS_MEDIA behind the
-                   // triangle that is the light, for boundaries that touch it; 0: nothing pending
-    SHADOW_R,      // radiance it brings if nothing is in the way
+    SHADOW_T_MAX,  // where the search for what is in the way ends: 1, or with TINTED_BOUNDARIES
+                   // behind the triangle that is the light, for boundaries that touch it; 0:
+                   // nothing pending
+    SHADOW_R,  // radiance it brings if nothing is in the way
     SHADOW_G,
     SHADOW_B,
     SHADOW_MEDIA,  // (uint bits) MEDIUM_STACK at its origin (only with HAS_MEDIA)

@@ -172,7 +172,7 @@ kernel void direct_light(
     t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
     const Vec3 origin = select3(in_medium, p, leave(p, scale3(ng, side)));
     const Vec3 to_light = sub3(s.p, origin);
-    if (HAS_MEDIA && HAS_AREA_LIGHTS) {
+    if (TINTED_BOUNDARIES && HAS_AREA_LIGHTS) {
         const float reach = 1.0f + RAY_OFFSET / LEAST_COSINE / sqrt(dot3(to_light, to_light));
         const int to_triangle = (t_max > 0.0f) & (light->kind == LIGHT_TRIANGLE);
         t_max = to_triangle ? reach : t_max;

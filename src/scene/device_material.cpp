@@ -13,10 +13,6 @@ float dielectric_f0(const Material& material, std::size_t channel) {
     return material.has(TEXTURE_SPECULAR_COLOR) ? f0 : std::min(f0, 1.0F);
 }
 
-bool has_tint(const Material& material) {
-    return material.base_color != Rgb{1, 1, 1} || material.has(TEXTURE_BASE_COLOR);
-}
-
 cl_uint device_boundary(const Material& material) {
     switch (material.boundary) {
         case Boundary::opaque:
@@ -30,6 +26,10 @@ cl_uint device_boundary(const Material& material) {
 }
 
 }  // namespace
+
+bool has_tint(const Material& material) {
+    return material.base_color != Rgb{1, 1, 1} || material.has(TEXTURE_BASE_COLOR);
+}
 
 DeviceMaterial device_material(const Material& material, uint32_t medium) {
     DeviceMaterial d{};

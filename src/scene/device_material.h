@@ -10,6 +10,9 @@ namespace wavepath {
 // `medium`: MediaTables::rows.
 DeviceMaterial device_material(const Material& material, uint32_t medium);
 
+// Whether its base colour is not white everywhere.
+bool has_tint(const Material& material);
+
 // Whether it is a boundary of microfacets that refract.
 bool refracts_roughly(const Material& material);
 

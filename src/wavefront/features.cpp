@@ -32,6 +32,7 @@ std::string Features::defines() const {
     define("HAS_MEDIA", media);
     define("HAS_DIELECTRICS", dielectrics);
     define("HAS_MATCHED_MEDIA", matched_media);
+    define("TINTED_BOUNDARIES", tinted_boundaries);
     define("HAS_CONTACTS", contacts);
     define("ROUGH_DIELECTRICS", rough_dielectrics);
     define("MEDIA_SCATTER", media_scatter);
@@ -81,6 +82,9 @@ Features features_of(
             (material.emits() && (material.has(TEXTURE_EMISSION) || material.unlit));
         f.transmission = f.transmission || material.transmission > 0;
         f.alpha = f.alpha || material.alpha_mode != AlphaMode::opaque;
+        f.tinted_boundaries =
+            f.tinted_boundaries || (material.boundary == Boundary::index_matched &&
+                                    (f.vertex_colors || has_tint(material)));
     }
     f.normal_maps = !geometry.tangents.empty();
     f.textures = f.textures || f.lobe_textures || f.normal_maps;

@@ -37,6 +37,7 @@ struct Features {
     bool media_scatter = false;
     bool dielectrics = false;        // boundaries that refract
     bool matched_media = false;      // besides index-matched ones
+    bool tinted_boundaries = false;  // of index-matched ones
     bool contacts = false;           // and are touched; the renderer's to find out
     bool rough_dielectrics = false;  // by microfacets
     Distances distances = Distances::exponential;
