@@ -129,7 +129,7 @@ enum ShadowPlane {
     SHADOW_T_MAX,  // where the search for what is in the way ends: 1, or with TINTED_BOUNDARIES
                    // behind the triangle that is the light, for boundaries that touch it; 0:
                    // nothing pending
-    SHADOW_R,  // radiance it brings if nothing is in the way
+    SHADOW_R,      // radiance it brings if nothing is in the way
     SHADOW_G,
     SHADOW_B,
     SHADOW_MEDIA,  // (uint bits) MEDIUM_STACK at its origin (only with HAS_MEDIA)
