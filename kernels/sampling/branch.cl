@@ -64,6 +64,7 @@ INLINE void open_branch(
     PLANE(branch, BRANCH_T)[slot] = t;
     store3(PLANE(branch, BRANCH_ORIGIN_X), stride, slot, origin);
     PLANE(branch, BRANCH_PDF)[slot] = PLANE(throughputs, THROUGHPUT_PDF)[slot];
+#pragma unroll  // a loop keeps the whole stage scalar on PoCL
     for (int k = 0; k < MEDIUM_PLANES_USED; ++k)
         PLANE(branch, BRANCH_MEDIA + k)[slot] = PLANE(path_media, k)[slot];
 }

@@ -37,14 +37,16 @@ typedef struct {
     shared_float environment_pmf;                              // of the light choice
     shared_float environment_left;  // luminance of the map that light points leave to the bsdf
     // media
-    shared_uint camera_media;     // MEDIUM_STACK at the camera
-    shared_uint stops;            // N stops on a segment that branches
+    shared_uint camera_media;  // MEDIUM_STACK at the camera
+    shared_float
+        ray_start;      // [normalised] from the camera to where its rays start, before the scene
+    shared_uint stops;  // N stops on a segment that branches
     shared_uint stop_directions;  // M directions from a stop
     // the sphere that directions are aimed at [normalised] (lights/guide.cl)
     shared_float guide_x, guide_y, guide_z;
     shared_float guide_radius2;
 } RenderParams;
-SHARED_SIZE(RenderParams, 176);
+SHARED_SIZE(RenderParams, 180);
 
 // One row of the sample plan: which samples of every pixel a pass takes, counted from the pixel's
 // first.

@@ -22,8 +22,11 @@ kernel void first_hit(
     if (slot >= slots) return;
     if (PLANE(ids, ID_SCATTERING)[slot] != 0) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    if (primitive == HIT_IDLE) return;
-    if (HAS_MEDIA && primitive == HIT_BOUNDARY) return;         // what lies behind it is seen
+    // What lies behind a boundary is seen. A product of steps: LLVM makes a switch of comparisons
+    // with constants, which it does not vectorise.
+    float sees = primitive == HIT_IDLE ? 0.0f : 1.0f;
+    if (HAS_MEDIA) sees *= primitive == HIT_BOUNDARY ? 0.0f : 1.0f;
+    if (sees == 0.0f) return;
     if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) return;  // a child after the first
     const int hit = primitive >= 0;
     const float kept =
@@ -31,7 +34,9 @@ kernel void first_hit(
     const Vec3 zero = vec3(0.0f, 0.0f, 0.0f);
     const Vec3 base = select3(hit, load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot), zero);
     const Vec3 n = select3(hit, load_shading_normal(surfaces, stride, slot), zero);
-    const float depth = hit ? PLANE(hits, HIT_T)[slot] * params.metres : 0.0f;
+    float t = PLANE(hits, HIT_T)[slot];
+    if (HAS_MEDIA | HAS_CONTACTS) t += params.ray_start;
+    const float depth = hit ? t * params.metres : 0.0f;
     global float* albedo = PLANE(radiances, SUM_ALBEDO_R);
     global float* normal = PLANE(radiances, SUM_NORMAL_X);
     store3(albedo, stride, slot, madd3(base, load3(albedo, stride, slot), kept));

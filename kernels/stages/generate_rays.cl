@@ -86,10 +86,12 @@ kernel void generate_rays(
     const Vec3 camera = vec3(params.camera_x, params.camera_y, params.camera_z);
     const Vec3 film = madd3(madd3(corner, right, x), down, y);
     const int orthographic = params.orthographic != 0;
-    store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, select3(orthographic, film, camera));
-    store3(
-        PLANE(rays, RAY_DIRECTION_X), stride, slot,
-        select3(orthographic, camera, normalize3(film)));
+    const Vec3 direction = select3(orthographic, camera, normalize3(film));
+    Vec3 origin = select3(orthographic, film, camera);
+    // from far off rounding of distances would decide what touches
+    if (HAS_MEDIA | HAS_CONTACTS) origin = madd3(origin, direction, params.ray_start);
+    store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, origin);
+    store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, direction);
 
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, vec3(1.0f, 1.0f, 1.0f));
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = PDF_CERTAIN;

@@ -66,7 +66,7 @@ kernel void pass_boundary(
         const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
         const float apart = PLANE(hits, HIT_T)[slot] - PLANE(path_media, MEDIUM_T)[slot];
         const int touch =
-            (apart >= 0.0f) & (apart * max(fabs(dot3(ng, direction)), 0x1p-8f) <= RAY_OFFSET);
+            (apart >= 0.0f) & (apart * max(fabs(dot3(ng, direction)), LEAST_COSINE) <= RAY_OFFSET);
         const int passed = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]) != NO_BOUNDARY;
         const int sends_back = HAS_CONTACTS | ((material->boundary == BOUNDARY_OPAQUE) &
                                                (material->transmission == 0.0f));

@@ -90,5 +90,5 @@ kernel void refract_boundary(
     start_at_origin(path_media, stride, slot);
     // what `leave` skipped lies in the medium too, and matters to a dense one; a grazing ray may
     // have left its curved surface before that
-    PLANE(path_media, MEDIUM_T)[slot] = -RAY_OFFSET / max(dot3(side, wi), 0x1p-8f);
+    PLANE(path_media, MEDIUM_T)[slot] = -RAY_OFFSET / max(dot3(side, wi), LEAST_COSINE);
 }

@@ -56,6 +56,7 @@ kernel void resume_branch(
             PLANE(rays, RAY_ORIGIN_X), stride, slot,
             load3(PLANE(branch, BRANCH_ORIGIN_X), stride, slot));
         PLANE(throughputs, THROUGHPUT_PDF)[slot] = PLANE(branch, BRANCH_PDF)[slot];
+#pragma unroll
         for (int k = 0; k < MEDIUM_PLANES_USED; ++k)
             PLANE(path_media, k)[slot] = PLANE(branch, BRANCH_MEDIA + k)[slot];
     }

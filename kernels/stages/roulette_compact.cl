@@ -1,12 +1,13 @@
 // Decides which paths go on (notes 4, Russian roulette: survivors carry 1/q) and what becomes
 // of each slot.
 //
-// reads: ids
+// reads: ids, media
 //
 // writes: throughputs, hits (the end), ids (scatterings of the last ray traced), fates
 //
 // One work-item a slot. scan_queue counts the fates.
 
+#include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
@@ -20,6 +21,8 @@
 kernel void roulette_compact(
     constant const RenderParams* restrict settings,
     const uint slots,
+    global const DeviceMedium* restrict media,
+    global const float* restrict path_media,
     global uint* restrict ids,
     global float* restrict hits,
     global float* restrict throughputs,
@@ -41,7 +44,13 @@ kernel void roulette_compact(
     // a child carries a part of its parent, which says nothing about its worth
     const float shares = HAS_SPLITS ? as_float(PLANE(ids, ID_SHARES)[slot]) : 1.0f;
     const float worth = HAS_GUIDE ? PLANE(hits, HIT_WORTH)[slot] : 1.0f;
-    const float carried = max_component3(throughput) * shares * worth;
+    float carried = max_component3(throughput) * shares * worth;
+    if (HAS_DIELECTRICS) {
+        // a path into glass carries 1 / n^2 of the n^2 times brighter radiance there, and is worth
+        // as much as before
+        const float ior = refractive_index(media, as_uint(PLANE(path_media, MEDIUM_STACK)[slot]));
+        carried *= ior * ior;
+    }
     survival = params.roulette == 1 ? min(1.0f, carried * (1.0f / ROULETTE_BELOW)) : survival;
     survival = params.roulette == 2 ? params.survival : survival;
     // once a scattering, not once a boundary

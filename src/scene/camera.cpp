@@ -4,6 +4,7 @@
 #include "scene/transform.h"
 
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -102,6 +103,9 @@ void set_camera(
     store(params.right_x, params.right_y, params.right_z, times(x, pixel));
     store(params.down_x, params.down_y, params.down_z, times(y, -pixel));
     params.orthographic = camera.orthographic ? 1 : 0;
+    constexpr double radius = 0.8661;  // of the sphere around the normalised scene
+    const double to_centre = camera.orthographic ? -dot(eye, forward) : length(eye);
+    params.ray_start = static_cast<float>(std::max(0.0, to_centre - radius));
     params.metres = static_cast<float>(geometry.extent.metres);
     params.width = width;
     params.height = height;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double touching = 0x1p-19;  // twice RAY_OFFSET, for rounding
 constexpr double most_sine = 0.01;
+constexpr double least_overlap = 0x1p-21;  // faces of one surface meet at their sides
 
 struct Triangle {
     std::array<Vec3d, 3> corners;
@@ -33,6 +34,19 @@ Triangle triangle_at(const NormalisedScene& geometry, std::size_t index) {
     return t;
 }
 
+// Whether all of `b`, seen along the normal, lies beyond one side of `a`.
+bool lies_beyond_a_side(const Triangle& a, const Triangle& b) {
+    for (std::size_t side = 0; side < 3; ++side) {
+        const Vec3d& from = a.corners[side];
+        const Vec3d inwards = normalized(cross(a.normal, minus(a.corners[(side + 1) % 3], from)));
+        if (std::ranges::all_of(b.corners, [&](const Vec3d& corner) {
+                return dot(inwards, minus(corner, from)) <= least_overlap;
+            }))
+            return true;
+    }
+    return false;
+}
+
 bool touches(const Triangle& a, const Triangle& b) {
     const Vec3d sine = cross(a.normal, b.normal);
     if (dot(sine, sine) > most_sine * most_sine) return false;
@@ -45,7 +59,8 @@ bool touches(const Triangle& a, const Triangle& b) {
         nearest = std::min(nearest, height);
         farthest = std::max(farthest, height);
     }
-    return nearest <= touching && farthest >= -touching;
+    if (nearest > touching || farthest < -touching) return false;
+    return !lies_beyond_a_side(a, b) && !lies_beyond_a_side(b, a);
 }
 
 // Calls `visit` with every triangle whose leaf's box meets that of `t`, until it says true.
@@ -72,26 +87,9 @@ bool any_near(const Bvh& bvh, const Triangle& t, const Visit& visit) {
     return false;
 }
 
-std::vector<uint32_t> bodies_of_triangles(const Scene& scene, const NormalisedScene& geometry) {
-    std::vector<uint32_t> bodies;
-    bodies.reserve(geometry.triangle_count());
-    for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        bodies.resize(geometry.ends[i], scene.instances[i].body);
-    return bodies;
-}
-
-// Whether a face of the same mesh is no other surface. A body's own boundaries go on in one
-// another, but may lie back to back; what else the mesh holds goes on in them at common corners
-// alone.
-bool goes_on_in(const Triangle& face, const Triangle& other, const Material& material) {
-    if (material.boundary != Boundary::opaque) return dot(other.normal, face.normal) > 0;
-    return std::ranges::find_first_of(face.corners, other.corners) != face.corners.end();
-}
-
 }  // namespace
 
 bool has_contacts(const Scene& scene, const NormalisedScene& geometry, const Bvh& bvh) {
-    const std::vector<uint32_t> bodies = bodies_of_triangles(scene, geometry);
     const auto is_wall = [](const Material& material) {
         return material.boundary == Boundary::opaque && material.transmission > 0;
     };
@@ -100,11 +98,9 @@ bool has_contacts(const Scene& scene, const NormalisedScene& geometry, const Bvh
         if (glass.boundary != Boundary::dielectric && !is_wall(glass)) continue;
         const Triangle face = triangle_at(geometry, t);
         const bool touched = any_near(bvh, face, [&](std::size_t other) {
+            if (other == t) return false;
             const Material& material = scene.materials[geometry.materials[other]];
-            if (is_wall(material)) return false;
-            const Triangle near = triangle_at(geometry, other);
-            if (bodies[other] == bodies[t] && goes_on_in(face, near, material)) return false;
-            return touches(face, near);
+            return !is_wall(material) && touches(face, triangle_at(geometry, other));
         });
         if (touched) return true;
     }

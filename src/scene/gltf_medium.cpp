@@ -68,9 +68,14 @@ class MediumReader {
         return false;
     }
 
-    // Members of the scattering extensions that mean nothing here.
+    // Members of the scattering extensions, and of extras under this program's name, that mean
+    // nothing here.
     std::vector<std::string> unknown_members() const {
         std::vector<std::string> unknown;
+        if (source_.extras.IsObject())
+            for (const std::string& key : source_.extras.Keys())
+                if (key.starts_with("wavepath") && key != extras_key)
+                    unknown.push_back(fmt::format("extras.{}", one_line(key)));
         if (has_extras()) return unknown;
         for (const char* name : scatter_extensions) {
             const auto* extension = find_extension(source_.extensions, name);
@@ -169,7 +174,10 @@ class MediumReader {
 
     Medium from_extras() const {
         const tinygltf::Value& extras = source_.extras.Get(extras_key);
-        if (!extras.IsObject()) fail("extras.{} is not an object; see docs/media.md", extras_key);
+        if (!extras.IsObject())
+            fail(
+                "extras.{} is not an object; write one of sigma_a, sigma_s, g, emission",
+                extras_key);
         for (const std::string& key : extras.Keys())
             if (key != "sigma_a" && key != "sigma_s" && key != "emission" && key != "g")
                 fail(
@@ -182,8 +190,8 @@ class MediumReader {
         const double g = number(file_, where_of_extras(), extras, "g", 0);
         if (!(std::abs(g) <= largest_anisotropy))
             fail(
-                "extras.{}: g is {}, not in -{} .. {}", extras_key, g, largest_anisotropy,
-                largest_anisotropy);
+                "extras.{}: g is {}, not in -{} .. {}; repair it", extras_key, g,
+                largest_anisotropy, largest_anisotropy);
         medium.anisotropy = static_cast<float>(g);
         return medium;
     }
@@ -194,13 +202,16 @@ class MediumReader {
         const std::vector<double> values =
             numbers(file_, where_of_extras(), object, key, {0, 0, 0});
         if (values.size() != 3)
-            fail("extras.{}: {} has {} numbers instead of 3", extras_key, key, values.size());
+            fail(
+                "extras.{}: {} has {} numbers instead of 3; repair it", extras_key, key,
+                values.size());
         Rgb rgb;
         for (std::size_t c = 0; c < 3; ++c) {
             constexpr float most = std::numeric_limits<float>::max();
             if (!(values[c] >= 0 && values[c] <= most))
                 fail(
-                    "extras.{}: {} holds {}, not in 0 .. {:.2g}", extras_key, key, values[c], most);
+                    "extras.{}: {} holds {}, not in 0 .. {:.2g}; repair it", extras_key, key,
+                    values[c], most);
             rgb[c] = static_cast<float>(values[c]);
         }
         return rgb;
@@ -223,7 +234,9 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
     for (const std::string& name : reader.unknown_members())
         ignored.add(fmt::format("members {}", name), "rendered as if they were not there");
     if (!is_volume && reader.scatters())
-        ignored.add("materials that scatter without a volume", "rendered as if they did not");
+        ignored.add(
+            "materials that scatter without a volume and transmission",
+            "rendered as if they did not");
     if (is_volume && material.unlit)
         ignored.add("volumes of unlit materials", "rendered without them");
     if (!is_volume || material.unlit) return;
@@ -237,6 +250,11 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
     else {
         material.boundary = material.ior == 1 ? Boundary::index_matched : Boundary::dielectric;
         material.medium = reader.read();
+        const bool attenuates = material.medium.scatters() || material.medium.sigma_a != Rgb{};
+        if (reader.scatters() && !reader.has_extras() && !attenuates)
+            ignored.add(
+                "scattering of volumes without attenuationDistance",
+                "rendered as if they were clear");
         material.transmission = 0;  // of thin walls
         const bool refracts = material.boundary == Boundary::dielectric;
         if (refracts && material.has(TEXTURE_METALLIC_ROUGHNESS))

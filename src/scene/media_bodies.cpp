@@ -136,37 +136,86 @@ void add(MediaBody& body, const Face& face, const Scene& scene) {
         }
 }
 
-// Of the faces of one mesh.
+// Corners are told apart as written where that closes all, else those that nearly coincide are one.
+Corners best_corners_of(const std::vector<Face>& faces) {
+    Corners corners = corners_of(faces, Exact{});
+    return are_closed(corners) ? corners : corners_of(faces, Welded{});
+}
+
+struct Piece {
+    std::vector<Face> faces;
+    bool closed;
+};
+
+// In the order of the file.
+std::vector<Piece> split(const std::vector<Face>& faces) {
+    const Corners corners = best_corners_of(faces);
+    const std::vector<uint32_t> piece_of = pieces_of(corners);
+    std::map<uint32_t, std::pair<std::vector<Face>, Corners>> pieces;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        auto& [its_faces, its_corners] = pieces[piece_of[i]];
+        its_faces.push_back(faces[i]);
+        its_corners.push_back(corners[i]);
+    }
+    std::vector<Piece> in_order;
+    for (auto& [first, piece] : pieces)
+        in_order.push_back({std::move(piece.first), are_closed(piece.second)});
+    return in_order;
+}
+
+// Of the faces of one mesh: the closed boundaries of one material, those of several, and one body
+// of the open ones with what else is open.
 std::vector<MediaBody> bodies_of(
     const Scene& scene, const std::vector<Face>& faces, const std::string& name) {
-    std::vector<Face> boundaries;
-    std::ranges::copy_if(faces, std::back_inserter(boundaries), [&](const Face& face) {
+    const auto bounds = [&](const Face& face) {
         return scene.materials[face.material].boundary != Boundary::opaque;
-    });
-    const auto closed = [](const std::vector<Face>& some) {
-        Corners corners = corners_of(some, Exact{});
-        if (are_closed(corners)) return std::pair{corners, true};
-        corners = corners_of(some, Welded{});
-        const bool by_welding = are_closed(corners);
-        return std::pair{std::move(corners), by_welding};
     };
-    const auto [corners, by_themselves] = closed(boundaries);
-    if (!by_themselves) {
-        MediaBody body;
-        body.name = name;
-        body.closed = closed(faces).second;
-        for (const Face& face : faces) add(body, face, scene);
-        return {std::move(body)};
-    }
-    std::map<uint32_t, MediaBody> pieces;
-    const std::vector<uint32_t> piece_of = pieces_of(corners);
-    for (std::size_t i = 0; i < boundaries.size(); ++i)
-        add(pieces[piece_of[i]], boundaries[i], scene);
     std::vector<MediaBody> bodies;
-    for (auto& [first, body] : pieces) {
+    const auto new_body = [&]() -> MediaBody& {
+        MediaBody& body = bodies.emplace_back();
         body.name = name;
         body.closed = true;
-        bodies.push_back(std::move(body));
+        return body;
+    };
+    // makes bodies of the closed pieces and returns what is left
+    const auto close = [&](const std::vector<Face>& some) {
+        std::vector<Face> open;
+        for (const Piece& piece : split(some)) {
+            if (!piece.closed) {
+                open.insert(open.end(), piece.faces.begin(), piece.faces.end());
+                continue;
+            }
+            MediaBody& body = new_body();
+            for (const Face& face : piece.faces) add(body, face, scene);
+        }
+        return open;
+    };
+    std::vector<Face> opaque;
+    std::vector<std::vector<Face>> by_material;  // in the order of the file
+    for (const Face& face : faces) {
+        if (!bounds(face)) {
+            opaque.push_back(face);
+            continue;
+        }
+        const auto its = std::ranges::find_if(
+            by_material, [&](const auto& some) { return some[0].material == face.material; });
+        if (its == by_material.end())
+            by_material.push_back({face});
+        else
+            its->push_back(face);
+    }
+    std::vector<Face> open;
+    for (const std::vector<Face>& some : by_material)
+        std::ranges::move(close(some), std::back_inserter(open));
+    open = close(open);
+    if (open.empty()) return bodies;
+    // mirrors may close the open ones; a closed room does not
+    opaque.insert(opaque.end(), open.begin(), open.end());
+    MediaBody& rest = new_body();
+    for (const Piece& piece : split(opaque)) {
+        if (piece.closed && std::ranges::none_of(piece.faces, bounds)) continue;
+        rest.closed = rest.closed && piece.closed;
+        for (const Face& face : piece.faces) add(rest, face, scene);
     }
     return bodies;
 }

@@ -29,9 +29,9 @@ struct MediaBody {
     double winding(const Vec3d& point) const;
 };
 
-// Every closed piece of a mesh's boundaries is a body. Boundaries of a mesh that do not close by
-// themselves are one with all other triangles of the mesh: mirrors may close it. A mesh that two
-// nodes place is two. In the order of the file.
+// Every closed piece of a mesh's boundaries is a body: of one material, else of several. The others
+// of the mesh are one, with all its triangles that are not closed by themselves: mirrors may close
+// it. A mesh that two nodes place is two.
 std::vector<MediaBody> bodies_with_media(const Scene& scene, const NormalisedScene& geometry);
 
 }  // namespace wavepath

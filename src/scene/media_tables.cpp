@@ -39,7 +39,7 @@ std::string warning_of_extinction(const Scene& scene, uint32_t index, double met
             scatterings, sigma_a > 0 ? std::min(depth * depth, sigma_t / sigma_a) : depth * depth);
     }
     const double free_paths = extinction * metres;
-    const std::string found = fmt::format(
+    std::string found = fmt::format(
         "{}: material {} \"{}\": an extinction of {:.3g} per metre makes {:.3g} free paths across "
         "the scene",
         scene.name, index, material.name, extinction, free_paths);
@@ -47,12 +47,13 @@ std::string warning_of_extinction(const Scene& scene, uint32_t index, double met
         throw Error(
             "{}, more than single precision tells apart ({:.0g}); lower sigma_s and sigma_a", found,
             most);
+    if (free_paths > seen) found += ", which single precision renders up to 5 % too dark";
     if (scatterings > long_paths)
-        return fmt::format(
-            "{}, and next to nothing is absorbed: paths may take {:.0g} scatterings, and long to "
+        found += fmt::format(
+            ", and next to nothing is absorbed: paths may take {:.0g} scatterings, and long to "
             "render; raise sigma_a or lower sigma_s",
-            found, scatterings);
-    return free_paths > seen ? found + ", which single precision renders up to 5 % too dark" : "";
+            scatterings);
+    return free_paths > seen || scatterings > long_paths ? found : "";
 }
 
 Vec3d point(const MediaBody::Point& p) {
@@ -158,6 +159,20 @@ bool cuts_film(const MediaBody::Triangle& triangle, const RenderParams& params) 
     return low[0] <= params.width && high[0] >= 0 && low[1] <= params.height && high[1] >= 0;
 }
 
+// Whether an eye is so close to the triangle that floats do not say on which side of it.
+bool lies_on(const MediaBody::Triangle& triangle, const Vec3d& eye) {
+    constexpr double nearest = 0x1p-21;
+    const std::array<Vec3d, 3> corners{point(triangle[0]), point(triangle[1]), point(triangle[2])};
+    const Vec3d normal =
+        normalized(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])));
+    if (!(std::abs(dot(normal, minus(eye, corners[0]))) <= nearest)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d side = normalized(minus(corners[(k + 1) % 3], corners[k]));
+        if (dot(cross(normal, side), minus(eye, corners[k])) < -nearest) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geometry) {
@@ -190,11 +205,11 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
             flat.push_back(body.name);
         else if (body.volume() < 0 && !is_hollow(body, bodies, tables))
             throw Error(
-                "{}: {} is inside out, and no body of the same medium is around it that it could "
-                "be a "
-                "hollow in; turn its faces",
+                "{}: {} is inside out, and no hollow in a body of the same medium; turn its faces",
                 scene.name, body.name);
-        if (std::ssize(bodies) > stack_height) check_nesting(scene, body, bodies);
+        // a hollow ends a medium
+        if (body.volume() > 0 && std::ssize(bodies) > stack_height)
+            check_nesting(scene, body, bodies);
     }
     const auto warn = [&](const std::vector<std::string>& names, const char* what) {
         if (names.empty()) return;
@@ -253,6 +268,12 @@ uint32_t media_at_camera(
             throw Error(
                 "{}: the plane of the orthographic camera cuts through {}, which encloses a "
                 "medium; move the camera back or forth",
+                scene.name, body.name);
+        const auto touches = [&](const auto& triangle) { return lies_on(triangle, camera); };
+        if (!orthographic && std::ranges::any_of(body.triangles, touches))
+            throw Error(
+                "{}: the camera lies on a face of {}, which encloses a medium: neither inside nor "
+                "outside; move it by a millionth of the scene",
                 scene.name, body.name);
         const double winding = body.winding(camera);
         for (const uint32_t row : rows_of(body, tables)) {

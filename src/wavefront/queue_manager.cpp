@@ -196,7 +196,8 @@ bool QueueManager::render(
                 device_, slots, params_, slots, scene_.media, pool_.surfaces, pool_.media,
                 pool_.rays, pool_.hits, pool_.throughputs, pool_.ids, pool_.branches);
         roulette_compact_.launch(
-            device_, slots, params_, slots, pool_.ids, pool_.hits, pool_.throughputs, pool_.fates);
+            device_, slots, params_, slots, scene_.media, pool_.media, pool_.ids, pool_.hits,
+            pool_.throughputs, pool_.fates);
         if (resume_branch_)
             resume_branch_->launch(
                 device_, slots, params_, slots, pool_.branches, pool_.hits, pool_.rays,

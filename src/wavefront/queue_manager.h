@@ -234,7 +234,7 @@ class QueueManager {
     std::optional<
         Stage<Params, cl_uint, Media, Floats, Floats, Floats, Floats, Floats, Uints, Floats>>
         scatter_medium_;
-    Stage<Params, cl_uint, Uints, Floats, Floats, Fates> roulette_compact_;
+    Stage<Params, cl_uint, Media, Floats, Uints, Floats, Floats, Fates> roulette_compact_;
     std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Floats, Fates>>
         resume_branch_;
     Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;

@@ -65,7 +65,7 @@ namespace {
     FIELD(RenderParams, environment_width) FIELD(RenderParams, environment_height)                \
     FIELD(RenderParams, environment_r) FIELD(RenderParams, environment_g)                         \
     FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)  FIELD(RenderParams, environment_left)                     \
-    FIELD(RenderParams, camera_media) FIELD(RenderParams, stops)                                  \
+    FIELD(RenderParams, camera_media) FIELD(RenderParams, ray_start) FIELD(RenderParams, stops)                                  \
     FIELD(RenderParams, stop_directions) \
     FIELD(RenderParams, guide_x) FIELD(RenderParams, guide_y) FIELD(RenderParams, guide_z)        \
     FIELD(RenderParams, guide_radius2)                                                            \

@@ -14,7 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Up to what the glTF reader lets through, and down to where 1 / g formulas have no digits left.
+// Close to what the glTF reader lets through (.99999), and down to where 1 / g formulas have no
+// digits left.
 constexpr double anisotropies[] = {0,    1e-6, -1e-6, 1e-3,  -1e-3,  0.3,
                                    -0.5, 0.75, 0.99,  -0.99, 0.9999, -0.9999};
 

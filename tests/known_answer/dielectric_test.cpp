@@ -202,6 +202,19 @@ TEST(Dielectric, RadianceInsideIsNSquared) {
     EXPECT_TRUE(has_mean(shared_mean(result), 2.25, {.truth_error = 1e-6}));
 }
 
+// Roulette goes by what a path carries but for n^2: every sample of a furnace is 1.
+TEST(Dielectric, IsNoReasonForRoulette) {
+    Scene scene = scene_named("ball");
+    scene.environment = constant_environment(1);
+    add_icosphere(scene, glass(2.4), {0, 0, 0}, 1, 3);
+    RenderSettings settings =
+        square_settings("mis", orthographic({0, 0, 2}, {0, 0, 0}, 2.5), 16, 64);
+    settings.termination.kind = TerminationKind::roulette;
+    const RenderResult result = render_scene(scene, settings);
+    EXPECT_NEAR(image_mean(result).mean, 1, 1e-5);
+    EXPECT_LT(image_mean(result).error, 1e-5);
+}
+
 // Fresnel's 4 % and the medium behind: n = 1.5, albedo 0.9, isotropic, by adding-doubling.
 TEST(Dielectric, SlabOfAScatteringMedium) {
     Scene scene = pane(glass(1.5, medium_of(1, 0.9)));
@@ -256,6 +269,34 @@ TEST(Dielectric, SlabsByAddingDoubling_long) {
                 shared_mean(render_for(strictness, below, settings)), truth[k][1], strictness));
         }
     }
+}
+
+// Light points of a sky on rough glass against directions of the lobe alone: seen from within, and
+// mirrored in it, which is a hundredth of the light.
+void expect_lit_alike(bool within, double bias) {
+    Medium black;
+    black.sigma_a = grey(20);
+    Material material = glass(1.5, black);
+    material.roughness = 1;
+    Scene scene = pane(material);
+    scene.environment = constant_environment(1);
+    const Vec3d eye{0.1, 0.2, within ? -1e-3 : 1};
+    const auto mean = [&](const char* method) {
+        return shared_mean(render_for(
+            {.bias = bias / 1.5}, scene,
+            square_settings(method, orthographic(eye, {0.1, 0.2, 0}, 0.1), 32, 64)));
+    };
+    EXPECT_TRUE(agree(mean("bsdf"), mean("direct-bsdf"), {.bias = bias})) << within;
+}
+
+TEST(RoughDielectric, IsLitAlikeFromWithin) {
+    expect_lit_alike(true, .01);
+}
+
+TEST(RoughDielectric, IsLitAlikeOnBothSides_long) {
+    WAVEPATH_SKIP_UNLESS_LONG();
+    expect_lit_alike(true, .005);
+    expect_lit_alike(false, .005);
 }
 
 // Light points through and on microfacets, against directions of the lobe alone: the same picture.

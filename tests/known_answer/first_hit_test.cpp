@@ -1,4 +1,5 @@
 // The layers of what a camera ray meets first.
+#include "support/media.h"
 #include "support/rendering.h"
 
 #include <algorithm>
@@ -53,6 +54,33 @@ TEST(FirstHit, DepthIsTheMeanOfTheRaysThatHit) {
             .film.image;
     EXPECT_NEAR(image.channels.at("depth.Z")[0], 2, 1e-5);
     EXPECT_NEAR(image.channels.at("normal.Z")[0], 0.5, 0.05);
+}
+
+// Through a fog that only absorbs, and a hollow in it, to a wall; of glass its face. Where light
+// scatters first, nothing.
+TEST(FirstHit, IsSeenThroughMatchedMedia) {
+    const auto layers = [](const Material& boundary) {
+        Scene scene = scene_named("wall");
+        scene.environment = constant_environment(1);
+        add_quad(scene, lambert({0.2F, 0.4F, 0.6F}), {-20, -20, -3}, {40, 0, 0}, {0, 40, 0});
+        add_box(scene, boundary, {-2, -2, -2}, {2, 2, -0.5}, Facing::outward);
+        add_box(scene, boundary, {-1, -1, -1.5}, {1, 1, -1}, Facing::inward);
+        return render_scene(
+                   scene, square_settings("mis", orthographic({0, 0, 0}, {0, 0, -1}, 1), 4, 16))
+            .film.image;
+    };
+    const Image through = layers(boundary_of(medium_of(1, 0)));
+    const Image glassy = layers(glass(1.5));
+    const Image dense = layers(boundary_of(medium_of(1e3, 0.5)));
+    for (std::size_t pixel = 0; pixel < 16; ++pixel) {
+        EXPECT_NEAR(through.channels.at("depth.Z")[pixel], 3, 1e-5);
+        EXPECT_NEAR(through.channels.at("albedo.G")[pixel], 0.4, 1e-6);
+        EXPECT_NEAR(through.channels.at("normal.Z")[pixel], 1, 1e-6);
+        EXPECT_NEAR(glassy.channels.at("depth.Z")[pixel], 0.5, 1e-5);
+        EXPECT_NEAR(glassy.channels.at("albedo.G")[pixel], 1, 1e-6);
+        EXPECT_EQ(dense.channels.at("depth.Z")[pixel], 0);
+        EXPECT_EQ(dense.channels.at("albedo.G")[pixel], 0);
+    }
 }
 
 }  // namespace

@@ -36,6 +36,35 @@ TEST(MediaBody, IsNotTheRoomOfItsMesh) {
         }
 }
 
+// An open piece of its mesh does not open a closed one, whichever way the closed room looks.
+TEST(MediaBody, IsClosedBesideOpenPieces) {
+    for (const Facing facing : {Facing::inward, Facing::outward}) {
+        Scene scene = scene_named("pieces");
+        const Material fog = boundary_of(medium_of(1, 0));
+        add_box(scene, fog, {-1, -1, -1}, {1, 1, 1}, Facing::outward);
+        add_box(scene, lambert(grey(0), grey(1), true), {-2, -2, -2}, {2, 2, 2}, facing);
+        join_last(scene);
+        add_square(scene, fog, {1.5, 0, 0}, {1, 0, 0}, 0.5);
+        join_last(scene);
+        const RenderResult result = render_scene(
+            scene, square_settings("mis", orthographic({.1, .2, 0}, {.1, .2, 3}, 0.01), 4, 4));
+        EXPECT_NEAR(shared_mean(result).mean / std::exp(-1), 1, 1e-5);
+        ASSERT_EQ(result.warnings.size(), 1U);
+        EXPECT_NE(result.warnings[0].find("not closed"), std::string::npos) << result.warnings[0];
+    }
+}
+
+// Two fogs of one mesh that share a face and its corners are two bodies.
+TEST(MediaBody, IsOneForEachMediumOfItsMesh) {
+    Scene scene = scene_named("side by side");
+    scene.environment = constant_environment(1);
+    add_box(scene, boundary_of(medium_of(0.25, 0)), {-1, -1, -1}, {1, 1, 1}, Facing::outward);
+    add_box(scene, boundary_of(medium_of(1, 0)), {-1, -1, 1}, {1, 1, 2}, Facing::outward);
+    join_last(scene);
+    EXPECT_NEAR(seen_from(scene, {.1, .2, 0}, {.1, .2, -3}) / std::exp(-.25), 1, 1e-5);
+    EXPECT_NEAR(seen_from(scene, {.1, .2, 0}, {.1, .2, 3}) / std::exp(-.25 - 1), 1, 1e-5);
+}
+
 // Two shells of one mesh that cross: a camera in both has left both behind the second face, 2.5
 // half-metres on. A small shell is inside a large one though a larger one lies far off.
 TEST(MediaBody, IsEveryShellOfItsMesh) {

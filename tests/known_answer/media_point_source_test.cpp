@@ -68,7 +68,7 @@ Estimate face_of(const Scene& scene, const Vec3d& eye, const Vec3d& target, uint
 void expect_fluence(double albedo, double a, double r, double truth, uint64_t samples) {
     Scene scene = scene_named("point source");
     add_box(
-        scene, boundary_of(medium_of(1, albedo)), {-20, -20, -20}, {20, 20, 20}, Facing::outward);
+        scene, boundary_of(medium_of(1, albedo)), {-40, -40, -40}, {40, 40, 40}, Facing::outward);
     Medium emitting = medium_of(1, albedo);
     emitting.emission = grey(static_cast<float>(3 / (16 * std::pow(std::numbers::pi * a, 2) * a)));
     add_icosphere(scene, boundary_of(emitting), {0, 0, 0}, a, 4);
@@ -86,13 +86,17 @@ void expect_fluence(double albedo, double a, double r, double truth, uint64_t sa
 }
 
 TEST(MediaPointSource, HasCasesFluence) {
-    expect_fluence(0.5, 0.7, 1, .0699973, 320);
+    expect_fluence(0.5, 0.7, 1, .0699974, 320);
+    expect_fluence(0.5, 0.35, 0.5, .336694, 320);
 }
 
 TEST(MediaPointSource, HasCasesFluenceAroundASmallSource_long) {
     WAVEPATH_SKIP_UNLESS_LONG();
     expect_fluence(0.5, 0.4, 1, .0618109, 2048);
     expect_fluence(0.9, 0.5, 2, .0375179, 8192);
+    expect_fluence(0.9, 0.35, 0.5, .523131, 512);
+    expect_fluence(0.9, 0.5, 1, .148017, 2048);
+    expect_fluence(0.99, 0.35, 0.5, .634247, 1024);
 }
 
 // A point light at a random stop's distance d counts as 1 / d^2, tail index 3/2: the error falls as

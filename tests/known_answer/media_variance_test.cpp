@@ -72,6 +72,28 @@ TEST(MediaVariance, OfOneStopOnANeedle) {
     }
 }
 
+// The notes' uniform directions where the phase function is not: (1 + g^2) / (1 - g^2)^2 - 1. Their
+// own error grows towards g = 1.
+TEST(MediaVariance, OfUniformDirectionsOnANeedle) {
+    const std::pair<double, uint32_t> cases[] = {{0.5, 256}, {-0.75, 512}, {0.9, 1536}};
+    constexpr double tau = 1e-3;
+    for (const auto& [g, size] : cases) {
+        SCOPED_TRACE(g);
+        RenderSettings settings =
+            single_scattering("path", along_the_needle, Distances::truncated, 1, size);
+        settings.method.phase_directions = false;
+        const RenderResult result = render_scene(needle(medium_of(tau, 1, g)), settings);
+        const double mean = 1 - std::exp(-tau);
+        const double relative_variance = (1 + g * g) / std::pow(1 - g * g, 2) - 1;
+        EXPECT_TRUE(has_mean(
+            sample_variance(result), relative_variance * mean * mean,
+            {.bias = 0.2, .tests = std::size(cases), .truth_error = 2e-3}));
+        EXPECT_TRUE(has_mean(
+            shared_mean(result), mean,
+            {.bias = 0.1, .tests = std::size(cases), .truth_error = 2e-3}));
+    }
+}
+
 // Two colours whose extinctions differ by k, an infinite segment: the distance is drawn for either,
 // half the time each, and weighed by both densities. By quadrature, for both colours alike.
 // Weighing one by the other's density would have infinite variance.

@@ -108,21 +108,23 @@ TEST(Determinism, OfOneCoreAndTwo) {
         GTEST_SKIP() << "the number of cores can be chosen on PoCL only, not on "
                      << test_device().info.platform;
     const TemporaryFolder folder;
-    const auto picture = [&](const char* threads, const std::string& scene) {
+    const auto picture = [&](const char* threads, const std::string& arguments) {
         // the name up to PoCL 3, and since
         const EnvironmentVariable count("POCL_MAX_PTHREAD_COUNT", threads);
         const EnvironmentVariable newer_count("POCL_CPU_MAX_CU_COUNT", threads);
         const std::string name = std::string("threads_") + threads + ".exr";
         const std::string command =
-            std::string("'" WAVEPATH_BINARY "' render '" WAVEPATH_SOURCE_DIR "/scenes/") + scene +
-            "/scene.gltf' --size 48x40 --spp 20 --quiet -o '" + (folder / name).string() + "'";
+            std::string("'" WAVEPATH_BINARY "' render '" WAVEPATH_SOURCE_DIR "'/scenes/") +
+            arguments + " --size 48x40 --spp 20 --quiet -o '" + (folder / name).string() + "'";
         EXPECT_EQ(std::system(command.c_str()), 0) << command;
         return folder.read(name);
     };
-    for (const char* scene : {"cornell_box", "fog_shaft"}) {
-        const std::string one = picture("1", scene);
+    for (const char* arguments :
+         {"cornell_box/scene.gltf", "fog_shaft/scene.gltf", "glass_of_liquid/scene.gltf",
+          "fog_shaft/scene.gltf --distance mis --splits 2,2,2"}) {
+        const std::string one = picture("1", arguments);
         EXPECT_GT(one.size(), std::size_t{48} * 40 * 4);
-        EXPECT_TRUE(one == picture("2", scene)) << scene;
+        EXPECT_TRUE(one == picture("2", arguments)) << arguments;
     }
 }
 

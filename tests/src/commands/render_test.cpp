@@ -143,7 +143,7 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
         "--splits with --split-depth 0: nothing would branch; take 1 or more");
     expect_refused(
         cornell_box + " --splits 1,1,64 --split-depth 8",
-        "--splits 1,1,64 --split-depth 8: up to 3e+14 paths a sample; lower them");
+        "--splits 1,1,64 --split-depth 8: up to 3e+14 paths a sample, at most 1e+08; lower them");
     expect_refused(cornell_box + " --camera nobody", "--camera nobody");
     expect_refused(cornell_box + " --scene nobody", "--scene nobody");
     expect_refused(cornell_box + " --look-at 0,0,0,0,0,0", "--look-at");

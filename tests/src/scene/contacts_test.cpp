@@ -47,6 +47,33 @@ TEST(Contacts, OfABodyWithItselfAreBackToBack) {
     EXPECT_TRUE(touched(scene));
 }
 
+// Whichever way its faces look, and though they share corners.
+TEST(Contacts, OfOneMeshAreFoundAsOfSeveral) {
+    for (const double facing : {1., -1.}) {
+        Scene floor = scene_named("floor");
+        add_box(floor, glass(1.5), {-1, -1, 0}, {1, 1, 1}, Facing::outward);
+        add_square(floor, lambert(grey(0.5F)), {0, 0, 0}, {0, 0, facing}, 2);
+        floor.instances[1].body = floor.instances[0].body;
+        EXPECT_TRUE(touched(floor)) << "of the same corners";
+        Scene window = scene_named("window");
+        Material wall = lambert(grey(1));
+        wall.transmission = 1;
+        add_box(window, boundary_of({}), {-1, -1, 0}, {1, 1, 1}, Facing::outward);
+        add_square(window, wall, {0, 0, 1 - 1e-6}, {0, 0, facing}, 2);
+        window.instances[1].body = window.instances[0].body;
+        EXPECT_TRUE(touched(window));
+    }
+    Scene liquid = scene_named("liquid");
+    add_box(liquid, glass(1.5), {-1, -1, 0}, {1, 1, 1}, Facing::outward);
+    add_box(liquid, glass(1.33), {-0.5, -0.5, 1e-6}, {0.5, 0.5, 0.5}, Facing::outward);
+    liquid.instances[1].body = liquid.instances[0].body;
+    EXPECT_TRUE(touched(liquid)) << "both look down";
+    Scene table = scene_named("side by side");
+    add_square(table, glass(1.5), {0, 0, 0}, {0, 0, 1}, 2);
+    add_square(table, lambert(grey(0.5F)), {2, 0, 0}, {0, 0, 1}, 2);
+    EXPECT_FALSE(touched(table));
+}
+
 TEST(Contacts, AreFoundInLargeMeshes) {
     Scene scene = scene_named("spheres");
     add_icosphere(scene, glass(1.5), {0, 0, 0}, 1, 5);

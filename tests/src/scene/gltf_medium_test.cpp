@@ -44,6 +44,12 @@ Json with_extras(const Json& medium) {
     return material;
 }
 
+void attenuate(Json& material) {
+    Json& volume = material["extensions"]["KHR_materials_volume"];
+    volume["attenuationColor"] = {0.5, 0.5, 0.5};
+    volume["attenuationDistance"] = 2;
+}
+
 TEST(GltfMedium, ReadsPhysicalCoefficients) {
     const Scene scene = load(file_with(with_extras(
         {{"sigma_a", {0.5, 1, 2}},
@@ -77,8 +83,7 @@ TEST(GltfMedium, ReadsAttenuation) {
 TEST(GltfMedium, ReadsScatterDrafts) {
     const auto albedos = [](const std::string& extension, const Json& scatter) {
         Json material = boundary();
-        material["extensions"]["KHR_materials_volume"]["attenuationColor"] = {0.5, 0.5, 0.5};
-        material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 2;
+        attenuate(material);
         material["extensions"][extension] = scatter;
         const Medium medium = load(file_with(material)).materials[0].medium;
         EXPECT_EQ(medium.anisotropy, scatter.value("scatterAnisotropy", 0.0F));
@@ -120,6 +125,29 @@ TEST(GltfMedium, ReadsScatterDrafts) {
                                       {"scatterAnisotropy", 0.5}}),
         near(.555164, .953816, .998952));
     EXPECT_THAT(albedos("KHR_materials_scatter", Json::object()), near(0, 0, 0));
+}
+
+// The extras over all, the newer draft over the older, in one draft the latest name.
+TEST(GltfMedium, TakesTheNewestOfSeveral) {
+    const auto albedo = [](const Json& material) {
+        const Medium medium = load(file_with(material)).materials[0].medium;
+        return medium.sigma_s[0] / (medium.sigma_a[0] + medium.sigma_s[0]);
+    };
+    Json material = boundary();
+    attenuate(material);
+    Json& extensions = material["extensions"];
+    Json& older = extensions["KHR_materials_volume_scatter"];
+    older = {{"scatterAlbedo", {0.9, 0.9, 0.9}}};
+    EXPECT_NEAR(albedo(material), .997907, 2e-6);
+    older["multiscatterColor"] = {0.5, 0.5, 0.5};
+    EXPECT_NEAR(albedo(material), .911709, 2e-6);
+    older["multiscatterColorFactor"] = {0.1, 0.1, 0.1};
+    EXPECT_NEAR(albedo(material), .384240, 2e-6);
+    extensions["KHR_materials_scatter"] = {
+        {"scatterStrengthFactor", 1}, {"multiscatterColorFactor", {0.5, 0.5, 0.5}}};
+    EXPECT_NEAR(albedo(material), .911709, 2e-6);
+    material["extras"] = {{"wavepath_medium", {{"sigma_a", {1, 1, 1}}, {"sigma_s", {3, 3, 3}}}}};
+    EXPECT_EQ(albedo(material), 0.75F);
 }
 
 TEST(GltfMedium, SaysThatUnlitMaterialsEncloseNothing) {
@@ -169,6 +197,7 @@ TEST(GltfMedium, SaysWhichTexturesItDoesNotRead) {
         Json material = boundary();
         material[Json::json_pointer("/extensions/KHR_materials_ior/ior")] = ior;
         material[Json::json_pointer(path)] = {{"index", 0}};
+        attenuate(material);
         GltfBuilder gltf = file_with(material);
         gltf.add("textures", {{"source", 0}});
         gltf.add(
@@ -193,9 +222,21 @@ TEST(GltfMedium, SaysWhichMembersItDoesNotKnow) {
     Json material = boundary();
     material["extensions"]["KHR_materials_scatter"] = {
         {"scatterStrength", 1}, {"multiscatterColorFactor", {1, 1, 1}}};
+    attenuate(material);
     EXPECT_THAT(
         load(file_with(material)).ignored,
         ElementsAre(HasSubstr("members KHR_materials_scatter.scatterStrength")));
+}
+
+TEST(GltfMedium, SaysWhatWouldStayClear) {
+    Json material = boundary();
+    material["extras"] = {{"wavepath_media", {{"sigma_s", {1, 1, 1}}}}};
+    EXPECT_THAT(load(file_with(material)).ignored, ElementsAre(HasSubstr("extras.wavepath_media")));
+    material = boundary();
+    material["extensions"]["KHR_materials_scatter"] = {{"scatterStrengthFactor", 1}};
+    EXPECT_THAT(
+        load(file_with(material)).ignored,
+        ElementsAre(HasSubstr("scattering of volumes without attenuationDistance")));
 }
 
 TEST(GltfMedium, IsBoundedWithoutAlpha) {
@@ -212,16 +253,18 @@ TEST(GltfMedium, RefusesWhatMeansNothing) {
     const auto refusal = [](const Json& material) { return load_error(file_with(material)); };
     EXPECT_THAT(
         refusal(with_extras({{"sigma_a", {0, -1, 0}}})),
-        HasSubstr("holds -1, not in 0 .. 3.4e+38"));
+        HasSubstr("holds -1, not in 0 .. 3.4e+38; repair it"));
     EXPECT_THAT(
         refusal(with_extras({{"sigma_a", {0, 1e39, 0}}})), HasSubstr("holds 1e+39, not in"));
-    EXPECT_THAT(refusal(with_extras({{"sigma_s", {1, 1}}})), HasSubstr("2 numbers instead of 3"));
+    EXPECT_THAT(
+        refusal(with_extras({{"sigma_s", {1, 1}}})),
+        HasSubstr("2 numbers instead of 3; repair it"));
     EXPECT_THAT(
         refusal(with_extras({{"sigma_s", "red"}})),
         HasSubstr("extras.wavepath_medium: sigma_s is not"));
     EXPECT_THAT(refusal(with_extras({{"g", 1}})), HasSubstr("g is 1"));
     EXPECT_THAT(refusal(with_extras({{"sigma", {1, 1, 1}}})), HasSubstr("no member \"sigma\""));
-    EXPECT_THAT(refusal(with_extras(1)), HasSubstr("not an object"));
+    EXPECT_THAT(refusal(with_extras(1)), HasSubstr("not an object; write one"));
     Json material = with_extras({{"sigma_a", {1, 1, 1}}});
     material["extensions"].erase("KHR_materials_volume");
     EXPECT_THAT(refusal(material), HasSubstr("needs KHR_materials_volume with thicknessFactor"));
