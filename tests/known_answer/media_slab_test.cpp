@@ -182,8 +182,7 @@ TEST(MediaSlab, HasTheOrdersOfTheDepthAsked) {
 }
 
 // The other orders of the page, for albedos 0.5, 0.9 and 1 at once.
-TEST(MediaSlab, HasTheOrdersOfOtherDepths_long) {
-    WAVEPATH_SKIP_UNLESS_LONG();
+TEST(MediaSlab, HasTheOrdersOfOtherDepths) {
     constexpr Rgb albedos{0.5F, 0.9F, 1};
     const struct {
         double tau, g;

@@ -176,8 +176,7 @@ TEST(MediaSphere, LightsItsCavityFromASmallSource_long) {
 
 // All of the table but b = 0.99, which a mesh does not reach, and the centre of a dark ball of tau
 // 5, which has a test of its own (0 here).
-TEST(MediaSphere, ShinesByTheWholeTable_long) {
-    WAVEPATH_SKIP_UNLESS_LONG();
+TEST(MediaSphere, ShinesByTheWholeTable) {
     const struct {
         double tau;
         double truth[4][3];  // at b = 0, 0.5, 0.9 and from the centre
