@@ -10,8 +10,8 @@
 namespace wavepath {
 namespace {
 
-constexpr double touching = 0x1p-19;  // twice RAY_OFFSET, for rounding
-constexpr double most_sine = 0.01;
+constexpr double touching = 0x1p-19;       // twice RAY_OFFSET, for rounding
+constexpr double most_sine = 0.01;         // of faces that lie on one another but for rounding
 constexpr double least_overlap = 0x1p-21;  // faces of one surface meet at their sides
 
 struct Triangle {

@@ -272,8 +272,8 @@ TEST(MediaBoundary, OfAFifthMediumIsRefusedOrFound) {
             result.warnings, bodies == 4 ? std::vector<std::string>{}
                                          : std::vector<std::string>{
                                                "crossing: samples are not finite where more than 4 "
-                                               "media lie around one another; take one of them "
-                                               "away if any do"});
+                                               "media lie around one another, or meet in a plane; "
+                                               "take one of them away if any do"});
         // towards the fifth, by path
         const RenderResult path = render(
             test_device(), crossing,

@@ -269,6 +269,21 @@ MUTATIONS = [
     ("what touches glass pushes the outermost medium out", "stages/find_contacts.cl",
      "tint = scale3(tint, weight_of_crossing(stack, crossed, material->medium));\n        if", "if",
      "MediaBoundary.OfAFifthMediumIsFoundBehindGlass"),
+    ("roulette takes glass for a loss", "stages/roulette_compact.cl",
+     "carried *= ior * ior;", "",
+     "Dielectric.IsNoReasonForRoulette"),
+    ("rays start at a far camera", "stages/generate_rays.cl",
+     "origin = madd3(origin, direction, params.ray_start);", ";",
+     "ContactOfWalls.OfFogAreSeenFromFarOff"),
+    ("depth from where rays start", "stages/first_hit.cl",
+     "t += params.ray_start;", ";",
+     "ContactOfWalls.OfFogAreSeenFromFarOff"),
+    ("boundaries are seen", "stages/first_hit.cl",
+     "sees *= primitive == HIT_BOUNDARY ? 0.0f : 1.0f;", ";",
+     "FirstHit.IsSeenThroughMatchedMedia"),
+    ("light points on rough glass 2 % too bright", "stages/direct_light.cl",
+     "f = select3(refracts, scale3(tint, v.value), f);", "f = select3(refracts, scale3(tint, 1.02f * v.value), f);",
+     "RoughDielectric.IsLitAlikeFromWithin"),
 ]
 
 
