@@ -93,14 +93,15 @@ TEST(MediaBody, MayShareItsFacesWithOthers) {
     Scene scene = scene_named("shared");
     scene.environment = constant_environment(1);
     const auto fog = [](double sigma_s) { return boundary_of(medium_of(sigma_s, 1)); };
-    add_box(scene, fog(0.5), {-1, -0.5, 0}, {0.5, 0, 0.5}, Facing::outward);
     add_box(
-        scene, fog(0.3), {-1.0000002, -1.0000002, -1.0000002}, {0.4999998, 0.4999998, 0.4999998},
+        scene, fog(0.5), {-0.9999999, -0.9999999, -0.9999995}, {3e-7, 0.5, 1.0000005},
         Facing::outward);
     add_box(
-        scene, fog(0.7), {-0.9999999, -0.9999999, -0.4999999}, {0.5000001, 1e-7, 1.0000001},
+        scene, fog(0.3), {-1.0000003, -0.9999999, -0.9999997}, {-3e-7, 2e-7, 1.0000002},
         Facing::outward);
-    const Camera camera = perspective({-3.972, .36, -.306}, {0, 0, 0}, 0.6);
+    add_box(
+        scene, fog(0.7), {-1.0000003, -0.9999999, -1}, {-5e-7, 0.4999995, 2e-7}, Facing::outward);
+    const Camera camera = perspective({0.591, -3.318, -2.142}, {0, 0, 0}, 0.7);
     const Strictness strictness{.bias = .01, .tests = 3};
     for (const Distances distances :
          {Distances::exponential, Distances::uniform, Distances::truncated}) {
