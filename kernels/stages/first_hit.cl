@@ -22,11 +22,7 @@ kernel void first_hit(
     if (slot >= slots) return;
     if (PLANE(ids, ID_SCATTERING)[slot] != 0) return;
     const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    // What lies behind a boundary is seen. A product of steps: LLVM makes a switch of comparisons
-    // with constants, which it does not vectorise.
-    float sees = primitive == HIT_IDLE ? 0.0f : 1.0f;
-    if (HAS_MEDIA) sees *= primitive == HIT_BOUNDARY ? 0.0f : 1.0f;
-    if (sees == 0.0f) return;
+    if (primitive == HIT_IDLE) return;
     if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) return;  // a child after the first
     const int hit = primitive >= 0;
     const float kept =

@@ -279,7 +279,7 @@ MUTATIONS = [
      "t += params.ray_start;", ";",
      "ContactOfWalls.OfFogAreSeenFromFarOff"),
     ("boundaries are seen", "stages/first_hit.cl",
-     "sees *= primitive == HIT_BOUNDARY ? 0.0f : 1.0f;", ";",
+     "const int hit = primitive >= 0;", "const int hit = (primitive >= 0) | (primitive == HIT_BOUNDARY);",
      "FirstHit.IsSeenThroughMatchedMedia"),
     ("light points on rough glass 2 % too bright", "stages/direct_light.cl",
      "f = select3(refracts, scale3(tint, v.value), f);", "f = select3(refracts, scale3(tint, 1.02f * v.value), f);",
