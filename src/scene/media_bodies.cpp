@@ -158,6 +158,7 @@ std::vector<Piece> split(const std::vector<Face>& faces) {
         its_corners.push_back(corners[i]);
     }
     std::vector<Piece> in_order;
+    in_order.reserve(pieces.size());
     for (auto& [first, piece] : pieces)
         in_order.push_back({std::move(piece.first), are_closed(piece.second)});
     return in_order;
