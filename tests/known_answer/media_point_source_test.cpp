@@ -94,9 +94,9 @@ TEST(MediaPointSource, HasCasesFluenceAroundASmallSource_long) {
     WAVEPATH_SKIP_UNLESS_LONG();
     expect_fluence(0.5, 0.4, 1, .0618109, 2048);
     expect_fluence(0.9, 0.5, 2, .0375179, 8192);
-    expect_fluence(0.9, 0.35, 0.5, .523131, 512);
-    expect_fluence(0.9, 0.5, 1, .148017, 2048);
-    expect_fluence(0.99, 0.35, 0.5, .634247, 1024);
+    expect_fluence(0.9, 0.35, 0.5, .523131, 640);
+    expect_fluence(0.9, 0.5, 1, .148017, 2560);
+    expect_fluence(0.99, 0.35, 0.5, .634247, 1536);
 }
 
 // A point light at a random stop's distance d counts as 1 / d^2, tail index 3/2: the error falls as
