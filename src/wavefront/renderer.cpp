@@ -109,9 +109,8 @@ void check_splits(const RenderSettings& settings, bool media_scatter) {
     const double paths = std::pow(children, settings.split_depth);
     if (children > 1 && paths > most)
         throw Error(
-            "--splits {},{},{} --split-depth {}: up to {:.0g} paths a sample, at most {:.0g}; "
-            "lower "
-            "them",
+            "--splits {},{},{} --split-depth {}: up to {:.0g} paths a sample, "
+            "at most {:.0g}; lower them",
             splits.stops, splits.directions, splits.reflections, settings.split_depth, paths, most);
 }
 

@@ -1,9 +1,7 @@
 // The known answers that the READMEs of scenes/ state, from the scenes' own files.
 #include "scene/gltf_loader.h"
-#include "scene/transform.h"
+#include "scene/normalise.h"
 #include "support/rendering.h"
-
-#include <algorithm>
 
 namespace wavepath {
 namespace {
@@ -21,18 +19,7 @@ Camera look_at_only(Scene& scene, const std::string& material, double above, dou
     std::erase_if(scene.instances, [&](const Instance& instance) {
         return scene.materials[scene.primitives[instance.primitive].material].name != material;
     });
-    const Instance& instance = scene.instances.at(0);
-    const std::vector<float>& positions = scene.primitives[instance.primitive].positions;
-    Vec3d low{1e9, 1e9, 1e9};
-    Vec3d high{-1e9, -1e9, -1e9};
-    for (std::size_t i = 0; i < positions.size() / 3; ++i) {
-        const Vec3d p = transform_point(instance.to_world, vec3_at(positions, i));
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
-    }
-    const Vec3d middle{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
+    const Vec3d middle = extent_of(scene).centre;
     return orthographic({middle[0], middle[1], middle[2] + above}, middle, width);
 }
 
