@@ -50,6 +50,36 @@ difference_of_products(const float8 a, const float8 b, const float8 c, const flo
     return fma(a, b, -rounded) - fma(c, d, -rounded);
 }
 
+// Lanes where the z axis meets the triangle a b c, sheared and moved to the ray's origin, at t > 0
+// (-1), and where: distances, barycentrics of corners 1 and 2.
+INLINE int8 intersect_sheared(
+    const float8 ax,
+    const float8 ay,
+    const float8 az,
+    const float8 bx,
+    const float8 by,
+    const float8 bz,
+    const float8 cx,
+    const float8 cy,
+    const float8 cz,
+    const float8 sz,
+    float8* t,
+    float8* u,
+    float8* v) {
+    // of the edges opposite corners 0, 1, 2
+    const float8 edge_a = difference_of_products(cx, by, cy, bx);
+    const float8 edge_b = difference_of_products(ax, cy, ay, cx);
+    const float8 edge_c = difference_of_products(bx, ay, by, ax);
+    const float8 lowest = min(edge_a, min(edge_b, edge_c));
+    const float8 highest = max(edge_a, max(edge_b, edge_c));
+    const float8 det = edge_a + edge_b + edge_c;  // where the signs agree, 0 only if all three are
+    const float8 inverse = 1.0f / det;
+    *t = (edge_a * az + edge_b * bz + edge_c * cz) * (inverse * sz);
+    *u = edge_b * inverse;
+    *v = edge_c * inverse;
+    return ((lowest >= 0.0f) | (highest <= 0.0f)) & (det != 0.0f) & (*t > 0.0f);
+}
+
 // Lanes hit with 0 < t <= t_max (-1), and where: distances, barycentrics of corners 1 and 2.
 INLINE int8 intersect_block(
     global const TriangleBlock* block,
@@ -70,16 +100,6 @@ INLINE int8 intersect_block(
     const float8 by = fma(bz, (float8)(ray->sy), vload8(0, b + ray->ky) - ray->oy);
     const float8 cx = fma(cz, (float8)(ray->sx), vload8(0, c + ray->kx) - ray->ox);
     const float8 cy = fma(cz, (float8)(ray->sy), vload8(0, c + ray->ky) - ray->oy);
-    // of the edges opposite corners 0, 1, 2
-    const float8 edge_a = difference_of_products(cx, by, cy, bx);
-    const float8 edge_b = difference_of_products(ax, cy, ay, cx);
-    const float8 edge_c = difference_of_products(bx, ay, by, ax);
-    const float8 lowest = min(edge_a, min(edge_b, edge_c));
-    const float8 highest = max(edge_a, max(edge_b, edge_c));
-    const float8 det = edge_a + edge_b + edge_c;  // where the signs agree, 0 only if all three are
-    const float8 inverse = 1.0f / det;
-    *t = (edge_a * az + edge_b * bz + edge_c * cz) * (inverse * ray->sz);
-    *u = edge_b * inverse;
-    *v = edge_c * inverse;
-    return ((lowest >= 0.0f) | (highest <= 0.0f)) & (det != 0.0f) & (*t > 0.0f) & (*t <= t_max);
+    return intersect_sheared(ax, ay, az, bx, by, bz, cx, cy, cz, (float8)(ray->sz), t, u, v) &
+           (*t <= t_max);
 }

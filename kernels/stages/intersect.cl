@@ -2,12 +2,13 @@
 // tint at once: there is nothing to decide at them. One that would leave all media there and meet
 // nothing behind is told so here, which saves it a round of all stages.
 //
-// reads: rays, media, ids, bvh, triangles, materials, textures (holes)
+// reads: rays, media, ids, bvh or mesh, triangles, materials, textures (holes)
 //
 // writes: hits, media
 //
 // One work-item for RAYS_PER_ITEM slots.
 
+#include "geometry/ray_packet.cl"
 #include "geometry/ray_stream.cl"
 #include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
@@ -41,11 +42,62 @@ INLINE uint clear_medium(
     return material->boundary == BOUNDARY_CLEAR ? material->medium : 0;
 }
 
+INLINE int has_ray(global const float* hits, const size_t stride, const size_t slot) {
+    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return 0;
+    return !HAS_SPLITS || PLANE(hits, HIT_T)[slot] >= 0.0f;
+}
+
+// Stores the hit, or what lies behind the boundaries that the ray passes at once. `next`: what lies
+// behind the hit, or 0 if that is not known.
+INLINE void pass_clear_boundaries(
+    const size_t stride,
+    const size_t slot,
+    global const BvhNode* nodes,
+    global const TriangleBlock* blocks,
+    global const float* triangles,
+    global const DeviceMaterial* materials,
+    const Cover* cover,
+    global const float* rays,
+    Hit hit,
+    const Hit* next,
+    global float* path_media,
+    global float* hits) {
+    const Vec3 origin = load3(PLANE(rays, RAY_ORIGIN_X), stride, slot);
+    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+    uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
+    while (HAS_MEDIA) {
+        const uint medium = clear_medium(triangles, materials, hit.primitive);
+        if (medium == 0) break;
+        global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * hit.primitive;
+        const uint crossed = cross_boundary(stack, medium, triangle, direction);
+        if (stack != 0 && (crossed != 0 || HAS_SPLITS)) break;
+        Hit behind;
+        if (next)
+            behind = *next;
+        else
+            behind = closest_hit(
+                nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
+                INFINITY, ray_start(hit.t, hit.primitive), holes_in(cover));
+        next = 0;
+        if (stack != 0) {
+            if (behind.primitive < 0) hit.primitive = HIT_LEAVING;
+            break;
+        }
+        go_on_behind(
+            path_media, stride, slot, stack, crossed, hit.t, hit.primitive,
+            touching_distance(triangle, direction));
+        stack = crossed;
+        hit = behind;
+    }
+    store_hit(hits, stride, slot, &hit);
+}
+
 kernel void intersect(
     constant const RenderParams* restrict params,
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
+    global const SmallMesh* restrict mesh,
     global const float* restrict triangles,
     global const DeviceMaterial* restrict materials,
     TEXTURE_PARAMETERS,
@@ -57,46 +109,50 @@ kernel void intersect(
     uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
     if (slot >= slots) return;
     if (RAYS_PER_ITEM == 1) {
-        if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return;
-        if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) return;
+        if (!has_ray(hits, stride, slot)) return;
         const Cover cover =
             ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
-        const Vec3 origin = load3(PLANE(rays, RAY_ORIGIN_X), stride, slot);
-        const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
-        Hit hit = closest_hit(
-            nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-            INFINITY, load_start(path_media, stride, slot), holes_in(&cover));
-        uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
-        while (HAS_MEDIA) {
-            const uint medium = clear_medium(triangles, materials, hit.primitive);
-            if (medium == 0) break;
-            global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * hit.primitive;
-            const uint crossed = cross_boundary(stack, medium, triangle, direction);
-            if (stack != 0 && (crossed != 0 || HAS_SPLITS)) break;
-            const Hit behind = closest_hit(
-                nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-                INFINITY, ray_start(hit.t, hit.primitive), holes_in(&cover));
-            if (stack != 0) {
-                if (behind.primitive < 0) hit.primitive = HIT_LEAVING;
-                break;
-            }
-            go_on_behind(
-                path_media, stride, slot, stack, crossed, hit.t, hit.primitive,
-                touching_distance(triangle, direction));
-            stack = crossed;
-            hit = behind;
-        }
-        store_hit(hits, stride, slot, &hit);
+        const Hit hit = closest_hit(
+            nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
+            PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
+            PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
+            load_start(path_media, stride, slot), holes_in(&cover));
+        pass_clear_boundaries(
+            stride, slot, nodes, blocks, triangles, materials, &cover, rays, hit, 0, path_media,
+            hits);
         return;
     }
     const uint end = min(slots, slot + RAYS_PER_ITEM);
     const Cover cover = ray_cover(TEXTURES, triangles, 0);
+    if (RAY_PACKETS) {
+        RayPacket packet;
+        packet_open(&packet);
+        while (slot < end) {
+            for (; slot < end && packet_has_room(&packet); ++slot) {
+                if (!has_ray(hits, stride, slot)) continue;
+                packet_add(
+                    &packet, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
+                    PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
+                    PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot],
+                    INFINITY, load_start(path_media, stride, slot));
+            }
+            PacketHits nearest, behind;
+            closest_of_packet(mesh, &packet, &nearest, &behind);
+            for (int k = 0; k < packet.count; ++k) {
+                const Hit next = hit_of_lane(&behind, k);
+                pass_clear_boundaries(
+                    stride, packet.item[k], nodes, blocks, triangles, materials, &cover, rays,
+                    hit_of_lane(&nearest, k), HAS_MATCHED_MEDIA ? &next : 0, path_media, hits);
+            }
+            packet.count = 0;
+        }
+        return;
+    }
     RayStream stream;
     stream_open(&stream);
     do {
         for (; slot < end && stream_has_room(&stream); ++slot) {
-            if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) continue;
-            if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) continue;
+            if (!has_ray(hits, stride, slot)) continue;
             stream_add(
                 &stream, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
                 PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],

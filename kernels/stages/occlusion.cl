@@ -1,11 +1,12 @@
 // Traces the pending connections and adds what arrives.
 //
-// reads: shadows, ids, bvh, triangles and textures (holes)
+// reads: shadows, ids, bvh or mesh, triangles and textures (holes)
 //
 // writes: radiances, fates
 //
 // One work-item for RAYS_PER_ITEM slots.
 
+#include "geometry/ray_packet.cl"
 #include "geometry/ray_stream.cl"
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
@@ -24,6 +25,7 @@ kernel void occlusion(
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
+    global const SmallMesh* restrict mesh,
     global const float* restrict triangles,
     TEXTURE_PARAMETERS,
     global const float* restrict shadows,
@@ -48,6 +50,29 @@ kernel void occlusion(
         return;
     }
     const uint end = min(slots, slot + RAYS_PER_ITEM);
+    if (RAY_PACKETS) {
+        RayPacket packet;
+        packet_open(&packet);
+        while (slot < end) {
+            for (; slot < end && packet_has_room(&packet); ++slot) {
+                const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
+                fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+                if (t_max <= 0.0f) continue;
+                packet_add(
+                    &packet, slot, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
+                    PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
+                    PLANE(shadows, SHADOW_DIRECTION_X)[slot],
+                    PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
+                    PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin());
+            }
+            const uint blocked = any_of_packet(mesh, &packet);
+            for (int k = 0; k < packet.count; ++k)
+                if ((blocked >> k & 1u) == 0)
+                    add_connection(shadows, radiances, stride, packet.item[k]);
+            packet.count = 0;
+        }
+        return;
+    }
     const Cover cover = ray_cover(TEXTURES, triangles, 0);
     RayStream stream;
     stream_open(&stream);

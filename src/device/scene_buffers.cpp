@@ -58,11 +58,16 @@ SceneBuffers::SceneBuffers(
     const Scene& scene,
     const NormalisedScene& geometry,
     const Bvh& bvh,
+    const std::optional<SmallMesh>& small_mesh,
     const LightTables& tables,
     const MediaTables& media_tables,
     const TextureTables& texture_tables)
     : nodes(device, bvh.nodes, "BVH nodes"),
       blocks(device, bvh.blocks, "BVH leaves"),
+      mesh(
+          device,
+          small_mesh ? std::vector<SmallMesh>{*small_mesh} : std::vector<SmallMesh>{},
+          "triangles"),
       triangles(device, triangle_records(geometry, tables), "triangles"),
       materials(device, device_materials(scene, media_tables), "materials"),
       lights(device, tables.lights, "lights"),
@@ -98,8 +103,8 @@ SceneBuffers::SceneBuffers(
 }
 
 std::size_t SceneBuffers::bytes() const {
-    return nodes.bytes() + blocks.bytes() + triangles.bytes() + materials.bytes() + lights.bytes() +
-           media.bytes() + environment.bytes() + textures.bytes();
+    return nodes.bytes() + blocks.bytes() + mesh.bytes() + triangles.bytes() + materials.bytes() +
+           lights.bytes() + media.bytes() + environment.bytes() + textures.bytes();
 }
 
 }  // namespace wavepath

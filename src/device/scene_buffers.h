@@ -6,8 +6,11 @@
 #include "scene/light_tables.h"
 #include "scene/media_tables.h"
 #include "scene/normalise.h"
+#include "scene/small_mesh.h"
 #include "scene/texture_tables.h"
 #include "shared/scene.h"
+
+#include <optional>
 
 namespace wavepath {
 
@@ -25,12 +28,14 @@ struct SceneBuffers {
         const Scene& scene,
         const NormalisedScene& geometry,
         const Bvh& bvh,
+        const std::optional<SmallMesh>& small_mesh,
         const LightTables& tables,
         const MediaTables& media_tables,
         const TextureTables& texture_tables);
 
     DeviceArray<BvhNode> nodes;
     DeviceArray<TriangleBlock> blocks;
+    DeviceArray<SmallMesh> mesh;      // none, or one for packets
     DeviceArray<cl_float> triangles;  // layout in kernels/shared/scene.h
     DeviceArray<DeviceMaterial> materials;
     DeviceArray<DeviceLight> lights;

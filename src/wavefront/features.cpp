@@ -45,6 +45,7 @@ std::string Features::defines() const {
     define("HAS_GUIDE", guide);
     define("SAMPLER_SOBOL", sobol);
     text += fmt::format("#define RAYS_PER_ITEM {}\n", rays_per_item);
+    define("RAY_PACKETS", ray_packets);
     return text;
 }
 

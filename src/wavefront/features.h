@@ -49,6 +49,7 @@ struct Features {
     bool guide = false;  // the renderer's to decide
     bool sobol = true;
     uint32_t rays_per_item = 1;  // 1 or stream_rays
+    bool ray_packets = false;    // of stream_rays, eight at a time against a small mesh
 
     bool shading_normals() const { return vertex_normals || normal_maps; }
 

@@ -136,8 +136,9 @@ bool QueueManager::render(
             device_, slots, params_, slots, plan_, pool_.hits, pool_.ids, pool_.rays,
             pool_.throughputs, pool_.radiances, pool_.media);
         intersect_.launch(
-            device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
-            scene_.materials, scene_.textures, pool_.rays, pool_.media, pool_.ids, pool_.hits);
+            device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.mesh,
+            scene_.triangles, scene_.materials, scene_.textures, pool_.rays, pool_.media, pool_.ids,
+            pool_.hits);
         if (work.active <= slots / 2) slots = compact(slots, work.active);
         if (find_contacts_)
             find_contacts_->launch(
@@ -177,8 +178,9 @@ bool QueueManager::render(
                 pool_.surfaces, pool_.throughputs, pool_.ids, pool_.media, pool_.shadows);
         if (occlusion_)
             occlusion_->launch(
-                device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
-                scene_.textures, pool_.shadows, pool_.ids, pool_.radiances, pool_.fates);
+                device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.mesh,
+                scene_.triangles, scene_.textures, pool_.shadows, pool_.ids, pool_.radiances,
+                pool_.fates);
         if (connect_through_media_)
             connect_through_media_->launch(
                 device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,

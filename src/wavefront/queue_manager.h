@@ -83,6 +83,7 @@ class QueueManager {
     using Map = Array<EnvironmentEntry>;
     using Nodes = Array<BvhNode>;
     using Blocks = Array<TriangleBlock>;
+    using Mesh = Array<SmallMesh>;
     using Fates = Array<cl_uchar>;
     using Chunks = Array<ChunkState>;
 
@@ -126,6 +127,7 @@ class QueueManager {
         cl_uint,
         Nodes,
         Blocks,
+        Mesh,
         Floats,
         Materials,
         DeviceTextures,
@@ -212,8 +214,18 @@ class QueueManager {
         Floats,
         Floats>>
         direct_light_;
-    std::optional<
-        Stage<Params, cl_uint, Nodes, Blocks, Floats, DeviceTextures, Floats, Uints, Floats, Fates>>
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Nodes,
+        Blocks,
+        Mesh,
+        Floats,
+        DeviceTextures,
+        Floats,
+        Uints,
+        Floats,
+        Fates>>
         occlusion_;
     std::optional<Stage<
         Params,

@@ -226,10 +226,13 @@ RenderResult render(
         (features.dielectrics || features.transmission) && has_contacts(scene, geometry, bvh);
     result.times.bvh_build = watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
-    // for memory together.
-    if (device.info.is_cpu && bvh.nodes.size() >= stream_nodes)
+    // for memory together, and a mesh that is smaller than the way through its tree by none.
+    const std::optional<SmallMesh> mesh =
+        device.info.is_cpu && !features.alpha ? small_mesh(geometry.positions) : std::nullopt;
+    features.ray_packets = mesh.has_value();
+    if (features.ray_packets || (device.info.is_cpu && bvh.nodes.size() >= stream_nodes))
         features.rays_per_item = stream_rays;
-    const SceneBuffers buffers(device, scene, geometry, bvh, tables, media, textures);
+    const SceneBuffers buffers(device, scene, geometry, bvh, mesh, tables, media, textures);
     result.times.upload = watch.lap();
 
     RenderParams params = scene_params(scene, geometry, tables, settings);

@@ -3,6 +3,7 @@
 #include "shared/params.h"
 #include "shared/queues.h"
 #include "shared/scene.h"
+#include "shared/small_mesh.h"
 #include "shared/texture.h"
 #include "support/probe.h"
 
@@ -22,6 +23,9 @@ namespace {
     FIELD(BvhNode, bounds) FIELD(BvhNode, children)                                               \
     STRUCT(TriangleBlock)                                                                         \
     FIELD(TriangleBlock, vertices) FIELD(TriangleBlock, primitives)                               \
+    STRUCT(SmallMesh)                                                                             \
+    FIELD(SmallMesh, corners) FIELD(SmallMesh, triangles) FIELD(SmallMesh, corner_count)          \
+    FIELD(SmallMesh, triangle_count) FIELD(SmallMesh, padding)                                    \
     STRUCT(DeviceMaterial)                                                                        \
     FIELD(DeviceMaterial, base_r) FIELD(DeviceMaterial, f0_r) FIELD(DeviceMaterial, emission_r)   \
     FIELD(DeviceMaterial, metallic) FIELD(DeviceMaterial, base_g) FIELD(DeviceMaterial, f0_g)     \
@@ -104,7 +108,7 @@ const std::string device_layout =
 TEST(Layout, HostAndDeviceAgree) {
     const Probe probe(
         {"shared/bvh.h", "shared/params.h", "shared/queues.h", "shared/scene.h",
-         "shared/texture.h"},
+         "shared/small_mesh.h", "shared/texture.h"},
         device_layout);
     const auto places = probe.run<cl_uint>("layout", 1, host_layout.size());
     for (std::size_t k = 0; k < places.size(); ++k)

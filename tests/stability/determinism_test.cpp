@@ -1,5 +1,7 @@
 // The same command gives the same bits, however the work is divided.
+#include "shared/small_mesh.h"
 #include "support/environment_variable.h"
+#include "support/media.h"
 #include "support/rendering.h"
 #include "support/temporary_folder.h"
 
@@ -92,6 +94,28 @@ TEST(Determinism, OfStreamsInTwoPools) {
     ASSERT_GE(first.bvh_nodes, 1024U);
     settings.pool = 100;
     expect_same_bits(first, render_scene(scene, settings));
+}
+
+// A CPU traces rays of a small mesh in packets, unless some of it has holes: here the light's mask,
+// which has none. Fog clear of the walls: rays pass two boundaries at once and look behind.
+TEST(Determinism, OfPacketsAndSingleRays) {
+    Scene fog = room();
+    add_box(fog, boundary_of(medium_of(0.4, 0.9)), {-.9, -.9, -.9}, {.9, .85, .7}, Facing::outward);
+    for (const uint32_t splits : {1U, 3U})
+        for (Scene scene : {room(), fog}) {
+            SCOPED_TRACE(fmt::format("{} materials, {} splits", scene.materials.size(), splits));
+            RenderSettings settings = uneven();
+            settings.pool = 1000;
+            settings.splits.reflections = splits;
+            const RenderResult packets = render_scene(scene, settings);
+            ASSERT_LE(packets.triangles, SMALL_MESH_TRIANGLES);
+            scene.materials[1].alpha_mode = AlphaMode::mask;
+            scene.materials[1].alpha_cutoff = 0.5F;
+            const RenderResult single = render_scene(scene, settings);
+            expect_same_bits(packets, single);
+            EXPECT_EQ(packets.rays.closest, single.rays.closest);
+            EXPECT_EQ(packets.rays.connections, single.rays.connections);
+        }
 }
 
 TEST(Determinism, OfTwoSeedsTheyDiffer) {
