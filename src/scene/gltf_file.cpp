@@ -2,6 +2,7 @@
 
 #include "scene/gltf_container.h"
 #include "scene/gltf_draco.h"
+#include "scene/gltf_malformed.h"
 #include "scene/gltf_meshopt.h"
 #include "scene/gltf_placeholders.h"
 #include "scene/gltf_unresolved.h"
@@ -194,6 +195,8 @@ GltfFile read_gltf_file(const fs::path& path) {
             "{}: not valid glTF: {}; repair the file or export again", file.name,
             one_line(unresolved.empty() ? error : unresolved));
     }
+    if (const std::string malformed = malformed_material(json_text(bytes)); !malformed.empty())
+        throw Error("{}: {}; repair the file or export again", file.name, malformed);
     decode_meshopt(file);
     decode_draco(file);
     return file;

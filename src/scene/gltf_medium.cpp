@@ -1,6 +1,7 @@
 #include "scene/gltf_medium.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -27,6 +28,12 @@ double single_albedo(double rho, double g) {
     const double s =
         4.09712 + 4.20863 * rho - std::sqrt(9.59217 + 41.6808 * rho + 17.7126 * rho * rho);
     return rho > 0 ? std::clamp((1 - s * s) / (1 - g * s * s), 0.0, 1.0) : 0.0;
+}
+
+bool is_named_like_ours(const std::string& key) {
+    constexpr std::string_view ours = "wavepath";
+    const auto same = [](unsigned char a, char b) { return std::tolower(a) == b; };
+    return std::ranges::mismatch(key, ours, same).in2 == ours.end();
 }
 
 class MediumReader {
@@ -74,7 +81,7 @@ class MediumReader {
         std::vector<std::string> unknown;
         if (source_.extras.IsObject())
             for (const std::string& key : source_.extras.Keys())
-                if (key.starts_with("wavepath") && key != extras_key)
+                if (is_named_like_ours(key) && key != extras_key)
                     unknown.push_back(fmt::format("extras.{}", one_line(key)));
         if (has_extras()) return unknown;
         for (const char* name : scatter_extensions) {

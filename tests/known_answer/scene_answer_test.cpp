@@ -59,5 +59,21 @@ TEST(SceneAnswer, AbsorbingGlass) {
     }
 }
 
+// Clear, under an even sky: not there.
+TEST(SceneAnswer, GlassOfLiquid) {
+    Scene scene = bundled("glass_of_liquid");
+    const Camera camera = scene.cameras.at(0);
+    std::erase_if(scene.instances, [&](const Instance& instance) {
+        const Material& material = scene.materials[scene.primitives[instance.primitive].material];
+        return material.boundary == Boundary::opaque;
+    });
+    ASSERT_GE(scene.instances.size(), 2U);
+    for (Material& material : scene.materials) material.medium.sigma_a = {0, 0, 0};
+    const Strictness strictness{.truth_error = 1e-6};
+    const RenderResult result =
+        render_for(strictness, scene, square_settings("mis", camera, 32, 16));
+    EXPECT_TRUE(has_mean(image_mean(result), 1, strictness));
+}
+
 }  // namespace
 }  // namespace wavepath

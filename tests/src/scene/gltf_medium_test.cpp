@@ -232,6 +232,9 @@ TEST(GltfMedium, SaysWhatWouldStayClear) {
     Json material = boundary();
     material["extras"] = {{"wavepath_media", {{"sigma_s", {1, 1, 1}}}}};
     EXPECT_THAT(load(file_with(material)).ignored, ElementsAre(HasSubstr("extras.wavepath_media")));
+    material["extras"] = {{"Wavepath_medium", {{"sigma_s", {1, 1, 1}}}}};
+    EXPECT_THAT(
+        load(file_with(material)).ignored, ElementsAre(HasSubstr("extras.Wavepath_medium")));
     material = boundary();
     material["extensions"]["KHR_materials_scatter"] = {{"scatterStrengthFactor", 1}};
     EXPECT_THAT(
@@ -265,6 +268,12 @@ TEST(GltfMedium, RefusesWhatMeansNothing) {
     EXPECT_THAT(refusal(with_extras({{"g", 1}})), HasSubstr("g is 1"));
     EXPECT_THAT(refusal(with_extras({{"sigma", {1, 1, 1}}})), HasSubstr("no member \"sigma\""));
     EXPECT_THAT(refusal(with_extras(1)), HasSubstr("not an object; write one"));
+    EXPECT_THAT(
+        refusal(with_extras(nullptr)),
+        HasSubstr("materials[0].extras.wavepath_medium is null; repair"));
+    EXPECT_THAT(
+        refusal(with_extras({{"sigma_s", {1, nullptr, 1}}})),
+        HasSubstr("materials[0].extras.wavepath_medium.sigma_s[1] is null; repair"));
     Json material = with_extras({{"sigma_a", {1, 1, 1}}});
     material["extensions"].erase("KHR_materials_volume");
     EXPECT_THAT(refusal(material), HasSubstr("needs KHR_materials_volume with thicknessFactor"));
@@ -288,6 +297,15 @@ TEST(GltfMedium, RefusesWhatMeansNothing) {
     material = boundary();
     material["extensions"]["KHR_materials_scatter"]["scatterAnisotropy"] = 1;
     EXPECT_THAT(refusal(material), HasSubstr("scatterAnisotropy is 1, not in -0.99999 .. 0.99999"));
+    for (const Json& no_object : {Json(nullptr), Json::array({1}), Json(1)}) {
+        material = boundary();
+        material["extensions"]["KHR_materials_scatter"] = no_object;
+        EXPECT_THAT(
+            refusal(material), HasSubstr("extensions.KHR_materials_scatter is no object; repair"));
+    }
+    material = boundary();
+    material["extras"] = {{"of another", nullptr}};
+    EXPECT_EQ(refusal(material), "");
     material = boundary();
     material["emissiveFactor"] = {1, 1, 1};
     EXPECT_THAT(refusal(material), HasSubstr("ior 1 and emits"));
