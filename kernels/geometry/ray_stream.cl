@@ -83,7 +83,7 @@ INLINE void stream_add(
     StreamRay* ray = &stream->rays[i];
     ray->slabs = slab_ray(ox, oy, oz, dx, dy, dz);
     ray->sheared = shear_ray(ox, oy, oz, dx, dy, dz);
-    if (HAS_MEDIA) ray->start = start;
+    if (STARTS_BEHIND) ray->start = start;
     ray->hit.t = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
     ray->hit.u = 0.0f;
     ray->hit.v = 0.0f;
@@ -125,7 +125,7 @@ INLINE int next_waiting(const StreamRay* ray) {
 INLINE void step_node(StreamRay* ray, global const BvhNode* node, const int any) {
     float8 t_near;
     const int8 crossed =
-        intersect_node(node, &ray->slabs, HAS_MEDIA ? ray->start.t : 0.0f, ray->hit.t, &t_near);
+        intersect_node(node, &ray->slabs, STARTS_BEHIND ? ray->start.t : 0.0f, ray->hit.t, &t_near);
     const uint lanes = lane_mask(crossed);
     uint lane = 31u - clz(lanes | 1u);
     if (!any) {

@@ -2,7 +2,7 @@
 // tint at once: there is nothing to decide at them. One that would leave all media there and meet
 // nothing behind is told so here, which saves it a round of all stages.
 //
-// reads: rays, media, ids, bvh or mesh, triangles, materials, textures (holes)
+// reads: rays, media, ids, bvh, mesh, triangles, materials, textures (holes)
 //
 // writes: hits, media
 //
@@ -44,7 +44,7 @@ INLINE uint clear_medium(
 
 INLINE int has_ray(global const float* hits, const size_t stride, const size_t slot) {
     if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return 0;
-    return !HAS_SPLITS || PLANE(hits, HIT_T)[slot] >= 0.0f;
+    return !(HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f);
 }
 
 // Stores the hit, or what lies behind the boundaries that the ray passes at once. `next`: what lies
@@ -92,6 +92,73 @@ INLINE void pass_clear_boundaries(
     store_hit(hits, stride, slot, &hit);
 }
 
+INLINE void intersect_packets(
+    const size_t stride,
+    uint slot,
+    const uint end,
+    global const BvhNode* nodes,
+    global const TriangleBlock* blocks,
+    global const SmallMesh* mesh,
+    global const float* triangles,
+    global const DeviceMaterial* materials,
+    const Cover* cover,
+    global const float* rays,
+    global float* path_media,
+    global float* hits) {
+    RayPacket packet;
+    packet_open(&packet);
+    while (slot < end) {
+        for (; slot < end && packet_has_room(&packet); ++slot) {
+            if (!has_ray(hits, stride, slot)) continue;
+            packet_add(
+                &packet, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
+                PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
+                PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
+                load_start(path_media, stride, slot));
+        }
+        if (packet.count == 0) break;
+        PacketHits nearest, behind;
+        closest_of_packet(mesh, &packet, &nearest, &behind);
+        for (int k = 0; k < packet.count; ++k) {
+            const Hit next = hit_of_lane(&behind, k);
+            pass_clear_boundaries(
+                stride, packet.item[k], nodes, blocks, triangles, materials, cover, rays,
+                hit_of_lane(&nearest, k), HAS_MATCHED_MEDIA ? &next : 0, path_media, hits);
+        }
+        packet.count = 0;
+    }
+}
+
+INLINE void intersect_stream(
+    const size_t stride,
+    uint slot,
+    const uint end,
+    global const BvhNode* nodes,
+    global const TriangleBlock* blocks,
+    const Cover* cover,
+    global const float* rays,
+    global const float* path_media,
+    global const uint* ids,
+    global float* hits) {
+    RayStream stream;
+    stream_open(&stream);
+    do {
+        for (; slot < end && stream_has_room(&stream); ++slot) {
+            if (!has_ray(hits, stride, slot)) continue;
+            stream_add(
+                &stream, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
+                PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
+                PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
+                load_start(path_media, stride, slot), HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
+        }
+        stream_step(&stream, nodes, blocks, cover, 0);
+        for (int k = 0; k < stream.ended; ++k) {
+            const StreamRay* ray = stream_ended(&stream, k);
+            store_hit(hits, stride, ray->item, &ray->hit);
+        }
+    } while (slot < end || stream_busy(&stream));
+}
+
 kernel void intersect(
     constant const RenderParams* restrict params,
     const uint slots,
@@ -106,12 +173,18 @@ kernel void intersect(
     global const uint* restrict ids,
     global float* restrict hits) {
     const size_t stride = params->stride;
-    uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
+    const uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
     if (slot >= slots) return;
-    if (RAYS_PER_ITEM == 1) {
-        if (!has_ray(hits, stride, slot)) return;
-        const Cover cover =
-            ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
+    const uint end = min(slots, slot + RAYS_PER_ITEM);
+    const Cover cover =
+        ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
+    if (RAY_PACKETS) {
+        intersect_packets(
+            stride, slot, end, nodes, blocks, mesh, triangles, materials, &cover, rays, path_media,
+            hits);
+    } else if (RAYS_PER_ITEM > 1) {
+        intersect_stream(stride, slot, end, nodes, blocks, &cover, rays, path_media, ids, hits);
+    } else if (has_ray(hits, stride, slot)) {
         const Hit hit = closest_hit(
             nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
             PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
@@ -120,49 +193,5 @@ kernel void intersect(
         pass_clear_boundaries(
             stride, slot, nodes, blocks, triangles, materials, &cover, rays, hit, 0, path_media,
             hits);
-        return;
     }
-    const uint end = min(slots, slot + RAYS_PER_ITEM);
-    const Cover cover = ray_cover(TEXTURES, triangles, 0);
-    if (RAY_PACKETS) {
-        RayPacket packet;
-        packet_open(&packet);
-        while (slot < end) {
-            for (; slot < end && packet_has_room(&packet); ++slot) {
-                if (!has_ray(hits, stride, slot)) continue;
-                packet_add(
-                    &packet, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
-                    PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
-                    PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot],
-                    INFINITY, load_start(path_media, stride, slot));
-            }
-            PacketHits nearest, behind;
-            closest_of_packet(mesh, &packet, &nearest, &behind);
-            for (int k = 0; k < packet.count; ++k) {
-                const Hit next = hit_of_lane(&behind, k);
-                pass_clear_boundaries(
-                    stride, packet.item[k], nodes, blocks, triangles, materials, &cover, rays,
-                    hit_of_lane(&nearest, k), HAS_MATCHED_MEDIA ? &next : 0, path_media, hits);
-            }
-            packet.count = 0;
-        }
-        return;
-    }
-    RayStream stream;
-    stream_open(&stream);
-    do {
-        for (; slot < end && stream_has_room(&stream); ++slot) {
-            if (!has_ray(hits, stride, slot)) continue;
-            stream_add(
-                &stream, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
-                PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
-                PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
-                load_start(path_media, stride, slot), HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
-        }
-        stream_step(&stream, nodes, blocks, &cover, 0);
-        for (int k = 0; k < stream.ended; ++k) {
-            const StreamRay* ray = stream_ended(&stream, k);
-            store_hit(hits, stride, ray->item, &ray->hit);
-        }
-    } while (slot < end || stream_busy(&stream));
 }

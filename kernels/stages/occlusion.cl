@@ -20,60 +20,47 @@ INLINE void add_connection(
         PLANE(radiances, RADIANCE_R + k)[slot] += PLANE(shadows, SHADOW_R + k)[slot];
 }
 
-kernel void occlusion(
-    constant const RenderParams* restrict params,
-    const uint slots,
-    global const BvhNode* restrict nodes,
-    global const TriangleBlock* restrict blocks,
-    global const SmallMesh* restrict mesh,
-    global const float* restrict triangles,
-    TEXTURE_PARAMETERS,
-    global const float* restrict shadows,
-    global const uint* restrict ids,
-    global float* restrict radiances,
-    global uchar* restrict fates) {
-    const size_t stride = params->stride;
-    uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
-    if (slot >= slots) return;
-    if (RAYS_PER_ITEM == 1) {
-        const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
-        fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
-        if (t_max <= 0.0f) return;
-        const Cover cover =
-            ray_cover(TEXTURES, triangles, HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
-        const int blocked = any_hit(
-            nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
-            PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
-            PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
-            PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, holes_in(&cover));
-        if (!blocked) add_connection(shadows, radiances, stride, slot);
-        return;
-    }
-    const uint end = min(slots, slot + RAYS_PER_ITEM);
-    if (RAY_PACKETS) {
-        RayPacket packet;
-        packet_open(&packet);
-        while (slot < end) {
-            for (; slot < end && packet_has_room(&packet); ++slot) {
-                const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
-                fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
-                if (t_max <= 0.0f) continue;
-                packet_add(
-                    &packet, slot, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
-                    PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
-                    PLANE(shadows, SHADOW_DIRECTION_X)[slot],
-                    PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
-                    PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin());
-            }
-            const uint blocked = any_of_packet(mesh, &packet);
-            for (int k = 0; k < packet.count; ++k)
-                if ((blocked >> k & 1u) == 0)
-                    add_connection(shadows, radiances, stride, packet.item[k]);
-            packet.count = 0;
+INLINE void connect_packets(
+    const size_t stride,
+    uint slot,
+    const uint end,
+    global const SmallMesh* mesh,
+    global const float* shadows,
+    global float* radiances,
+    global uchar* fates) {
+    RayPacket packet;
+    packet_open(&packet);
+    while (slot < end) {
+        for (; slot < end && packet_has_room(&packet); ++slot) {
+            const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
+            fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+            if (t_max <= 0.0f) continue;
+            packet_add(
+                &packet, slot, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
+                PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
+                PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
+                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin());
         }
-        return;
+        if (packet.count == 0) break;
+        const uint blocked = any_of_packet(mesh, &packet);
+        for (int k = 0; k < packet.count; ++k)
+            if ((blocked >> k & 1u) == 0)
+                add_connection(shadows, radiances, stride, packet.item[k]);
+        packet.count = 0;
     }
-    const Cover cover = ray_cover(TEXTURES, triangles, 0);
+}
+
+INLINE void connect_stream(
+    const size_t stride,
+    uint slot,
+    const uint end,
+    global const BvhNode* nodes,
+    global const TriangleBlock* blocks,
+    const Cover* cover,
+    global const float* shadows,
+    global const uint* ids,
+    global float* radiances,
+    global uchar* fates) {
     RayStream stream;
     stream_open(&stream);
     do {
@@ -88,10 +75,56 @@ kernel void occlusion(
                 PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin(),
                 HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
         }
-        stream_step(&stream, nodes, blocks, &cover, 1);
+        stream_step(&stream, nodes, blocks, cover, 1);
         for (int k = 0; k < stream.ended; ++k) {
             const StreamRay* ray = stream_ended(&stream, k);
             if (ray->hit.primitive < 0) add_connection(shadows, radiances, stride, ray->item);
         }
     } while (slot < end || stream_busy(&stream));
+}
+
+INLINE void connect_alone(
+    const size_t stride,
+    const uint slot,
+    global const BvhNode* nodes,
+    global const TriangleBlock* blocks,
+    const Cover* cover,
+    global const float* shadows,
+    global float* radiances,
+    global uchar* fates) {
+    const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
+    fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+    if (t_max <= 0.0f) return;
+    const int blocked = any_hit(
+        nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot], PLANE(shadows, SHADOW_ORIGIN_Y)[slot],
+        PLANE(shadows, SHADOW_ORIGIN_Z)[slot], PLANE(shadows, SHADOW_DIRECTION_X)[slot],
+        PLANE(shadows, SHADOW_DIRECTION_Y)[slot], PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max,
+        holes_in(cover));
+    if (!blocked) add_connection(shadows, radiances, stride, slot);
+}
+
+kernel void occlusion(
+    constant const RenderParams* restrict params,
+    const uint slots,
+    global const BvhNode* restrict nodes,
+    global const TriangleBlock* restrict blocks,
+    global const SmallMesh* restrict mesh,
+    global const float* restrict triangles,
+    TEXTURE_PARAMETERS,
+    global const float* restrict shadows,
+    global const uint* restrict ids,
+    global float* restrict radiances,
+    global uchar* restrict fates) {
+    const size_t stride = params->stride;
+    const uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
+    if (slot >= slots) return;
+    const uint end = min(slots, slot + RAYS_PER_ITEM);
+    const Cover cover =
+        ray_cover(TEXTURES, triangles, HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
+    if (RAY_PACKETS)
+        connect_packets(stride, slot, end, mesh, shadows, radiances, fates);
+    else if (RAYS_PER_ITEM > 1)
+        connect_stream(stride, slot, end, nodes, blocks, &cover, shadows, ids, radiances, fates);
+    else
+        connect_alone(stride, slot, nodes, blocks, &cover, shadows, radiances, fates);
 }

@@ -67,7 +67,7 @@ SceneBuffers::SceneBuffers(
       mesh(
           device,
           small_mesh ? std::vector<SmallMesh>{*small_mesh} : std::vector<SmallMesh>{},
-          "triangles"),
+          "small mesh"),
       triangles(device, triangle_records(geometry, tables), "triangles"),
       materials(device, device_materials(scene, media_tables), "materials"),
       lights(device, tables.lights, "lights"),

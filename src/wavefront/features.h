@@ -12,7 +12,8 @@
 
 namespace wavepath {
 
-// Rays that one work-item of `intersect` and `occlusion` traces where they are traced in streams.
+// Rays that one work-item of `intersect` and `occlusion` traces where they are traced in streams or
+// packets.
 constexpr uint32_t stream_rays = 128;
 
 struct Features {

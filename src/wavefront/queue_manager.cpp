@@ -271,7 +271,7 @@ QueueManager::Work QueueManager::count_work(uint32_t slots, const Work& before) 
         if (chunk.runaway_pixel != 0)
             throw Error(
                 "pixel ({}, {}), sample {}: the path is still alive after {} scatterings: nothing "
-                "in the scene absorbs it; lower an albedo, part glass bodies that overlap, or use "
+                "in the scene absorbs it; lower an albedo, part glass bodies that cross, or use "
                 "--termination depth:D (biased)",
                 (chunk.runaway_pixel - 1) % image_width_, (chunk.runaway_pixel - 1) / image_width_,
                 chunk.runaway_sample, MAX_SCATTERINGS);

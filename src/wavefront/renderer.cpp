@@ -226,7 +226,7 @@ RenderResult render(
         (features.dielectrics || features.transmission) && has_contacts(scene, geometry, bvh);
     result.times.bvh_build = watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
-    // for memory together, and a mesh that is smaller than the way through its tree by none.
+    // for memory together, and a small mesh is traced without its tree, in packets.
     const std::optional<SmallMesh> mesh =
         device.info.is_cpu && !features.alpha ? small_mesh(geometry.positions) : std::nullopt;
     features.ray_packets = mesh.has_value();

@@ -96,6 +96,22 @@ TEST(Determinism, OfStreamsInTwoPools) {
     expect_same_bits(first, render_scene(scene, settings));
 }
 
+// Where something touches, rays start behind a triangle: streams too, without any medium.
+TEST(Determinism, OfStreamsThatMeetAWindowOnAWall) {
+    Scene scene = room();
+    add_icosphere(scene, lambert(grey(0.6F)), {0.4, -0.4, 0.3}, 0.4, 5);
+    Material window = lambert(grey(0.9F));
+    window.transmission = 1;
+    add_square(scene, window, {0, 0, -1 + 1e-7}, {0, 0, 1}, 1);
+    RenderSettings settings = uneven();
+    const RenderResult first = render_scene(scene, settings);
+    ASSERT_GE(first.bvh_nodes, 1024U);
+    ASSERT_TRUE(std::ranges::any_of(
+        first.profile, [](const ProfileRow& row) { return row.name == "find_contacts"; }));
+    settings.pool = 100;
+    expect_same_bits(first, render_scene(scene, settings));
+}
+
 // A CPU traces rays of a small mesh in packets, unless some of it has holes: here the light's mask,
 // which has none. Fog clear of the walls: rays pass two boundaries at once and look behind.
 TEST(Determinism, OfPacketsAndSingleRays) {

@@ -304,7 +304,13 @@ TEST(GltfMedium, RefusesWhatMeansNothing) {
             refusal(material), HasSubstr("extensions.KHR_materials_scatter is no object; repair"));
     }
     material = boundary();
+    material["extensions"] = 1;
+    EXPECT_THAT(refusal(material), HasSubstr("materials[0].extensions is no object; repair"));
+    material = boundary();
+    material["extensions"]["OTHERS_extension"] = {{"of another", nullptr}};
     material["extras"] = {{"of another", nullptr}};
+    EXPECT_EQ(refusal(material), "");
+    material["extras"] = nullptr;
     EXPECT_EQ(refusal(material), "");
     material = boundary();
     material["emissiveFactor"] = {1, 1, 1};
