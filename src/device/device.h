@@ -24,6 +24,7 @@ struct DeviceInfo {
 };
 
 // An open device with its context and an in-order, profiling queue.
+// NOLINTNEXTLINE(bugprone-exception-escape): a move of cl2.hpp's handles, which is noexcept, throws
 struct Device {
     DeviceInfo info;
     cl::Device device;

@@ -12,6 +12,7 @@
 namespace wavepath {
 
 template <typename T>
+// NOLINTNEXTLINE(bugprone-exception-escape): see Device
 class DeviceArray {
   public:
     DeviceArray() = default;

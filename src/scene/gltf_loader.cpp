@@ -104,7 +104,7 @@ class MeshInstancer {
     Scene& scene_;
     Ignored& ignored_;
     std::size_t triangles_ = 0;  // instances expanded
-    const std::size_t available_memory_ = available_memory();
+    std::size_t available_memory_ = available_memory();
     std::map<std::pair<int, Pose>, Range> read_;
     std::uint32_t bodies_ = 0;
 };

@@ -14,6 +14,7 @@ struct Pose {
     std::vector<double> weights;  // one a morph target, or none: the base shape
     std::vector<Matrix4> joints;  // from the mesh to where it is placed, or none: no skin
 
+    // NOLINTNEXTLINE(modernize-use-nullptr): compares with the literal 0, which is no pointer here
     auto operator<=>(const Pose&) const = default;
 };
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <ranges>
 #include <string_view>
 
 namespace wavepath {
@@ -104,10 +103,12 @@ Termination parse_termination(const std::string& text) {
 Splits parse_splits(const std::string& text) {
     constexpr uint32_t most = 4096;
     std::vector<uint32_t> numbers;
-    for (const auto part : std::views::split(std::string_view(text), ',')) {
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
         uint32_t value = 0;
-        const bool number = parse_number(std::string_view(part.begin(), part.end()), value);
+        const bool number = parse_number(std::string_view(text).substr(begin, end - begin), value);
         numbers.push_back(number ? value : 0);
+        begin = end + 1;
     }
     if (numbers.size() == 2) numbers.push_back(1);
     const auto in_range = [](uint32_t value) { return value >= 1 && value <= most; };

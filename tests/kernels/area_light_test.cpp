@@ -103,10 +103,11 @@ struct Estimates {
 
 Estimates estimate(
     const Lights& lights, std::array<double, 3> p, std::array<double, 3> n, std::size_t samples) {
-    std::vector<cl_float> place;
-    for (const double c : p) place.push_back(static_cast<cl_float>(c));
-    for (const double c : n)
-        place.push_back(static_cast<cl_float>(c / std::hypot(n[0], n[1], n[2])));
+    std::vector<cl_float> place(6);
+    for (std::size_t c = 0; c < 3; ++c) {
+        place[c] = static_cast<cl_float>(p[c]);
+        place[3 + c] = static_cast<cl_float>(n[c] / std::hypot(n[0], n[1], n[2]));
+    }
     const auto out = probe().run<cl_float>(
         "light_samples", batches, 4 * batches, lights.triangles, lights.lights,
         static_cast<cl_uint>(lights.lights.size()), place,

@@ -24,6 +24,7 @@ using std::numbers::pi;
 const Grid grid;
 constexpr cl_uint width = 30;
 constexpr cl_uint height = 16;
+constexpr std::size_t texels = std::size_t{width} * height;
 
 const std::string kernels = R"(
 INLINE Bits2 bits_of(const uint i) {
@@ -111,23 +112,22 @@ Map map_of(const std::vector<float>& greys, bool alone = true) {
 Map uneven_map(bool alone = true) {
     std::mt19937 random(1);
     std::lognormal_distribution<float> radiance(0, 1.5F);
-    std::vector<float> greys(width * height);
+    std::vector<float> greys(texels);
     for (float& grey : greys) grey = radiance(random);
     return map_of(greys, alone);
 }
 
 // black but for one texel
 Map bright_map(cl_uint column, cl_uint row) {
-    std::vector<float> greys(width * height);
-    greys[row * width + column] = 1e4F;
+    std::vector<float> greys(texels);
+    greys[std::size_t{row} * width + column] = 1e4F;
     return map_of(greys);
 }
 
 double texel(const Map& map, int x, int y) {
-    const int column = (x + 2 * static_cast<int>(width)) % static_cast<int>(width);
-    const int row = std::clamp(y, 0, static_cast<int>(height) - 1);
-    return map.environment
-        .pixels[static_cast<std::size_t>(3 * (row * static_cast<int>(width) + column))];
+    const auto column = static_cast<std::size_t>(x + 2 * static_cast<int>(width)) % width;
+    const auto row = static_cast<std::size_t>(std::clamp(y, 0, static_cast<int>(height) - 1));
+    return map.environment.pixels[3 * (row * width + column)];
 }
 
 // Bilinear between texel centres at (u, v) of the map.
@@ -175,7 +175,7 @@ TEST(Environment, DirectionsFollowTheirDensity) {
 // than its mean all around, and a map of one brightness has none at all.
 TEST(Environment, LightPointsBesideABsdfLeaveItWhatIsEven) {
     const Map uneven = uneven_map(false);
-    const Map even = map_of(std::vector<float>(width * height, 2.0F), false);
+    const Map even = map_of(std::vector<float>(texels, 2.0F), false);
     EXPECT_NEAR(even.params[0].environment_left, 2, 1e-6);
     std::vector<cl_float> directions;
     std::vector<bool> dark;

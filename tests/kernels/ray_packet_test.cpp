@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 namespace wavepath {
 namespace {
@@ -133,7 +132,7 @@ TEST(RayPacket, TracesAsRaysAlone) {
             const auto blocked_alone = probe().run<TestHit>(
                 "blocked_alone", n, 2 * n, floats_of(rays), bvh.nodes, bvh.blocks);
             for (std::size_t i = 0; i < 2 * n; ++i) {
-                ASSERT_EQ(std::memcmp(&closest[i], &expected[i], sizeof(TestHit)), 0)
+                ASSERT_TRUE(same_bits(closest[i], expected[i]))
                     << mesh.name << ", ray " << i / 2 << ", hit " << i % 2 << ": "
                     << closest[i].primitive << " at " << closest[i].t << ", alone "
                     << expected[i].primitive << " at " << expected[i].t;

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstring>
 #include <limits>
 
 namespace wavepath {
@@ -87,7 +86,7 @@ TEST(RayStream, TracesAsRaysAlone) {
             const std::vector<TestHit> closest = run("closest", bvh, rays);
             const std::vector<TestHit> any = run("blocked", bvh, rays);
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                ASSERT_EQ(std::memcmp(&closest[i], &alone[i], sizeof(TestHit)), 0)
+                ASSERT_TRUE(same_bits(closest[i], alone[i]))
                     << mesh.name << ", ray " << i << ": " << closest[i].primitive << " at "
                     << closest[i].t << ", alone " << alone[i].primitive << " at " << alone[i].t;
                 ASSERT_EQ(any[i].primitive >= 0, alone[i].primitive >= 0)

@@ -71,7 +71,7 @@ TEST(Rng, HashAvalanches) {
     const std::size_t inputs = scaled(1U << 16U);
     const auto hashes = probe().run<cl_uint>("hashes", 2 * inputs, 2 * inputs);
     // bits below 2^16 have both values among the inputs
-    const double critical = normal_critical(0.5 * sidak(false_alarm, 16 * 32));
+    const double critical = normal_critical(0.5 * sidak(false_alarm, std::size_t{16} * 32));
     for (unsigned in = 0; in < 16 && (2U << in) <= 2 * inputs; ++in) {
         std::vector<double> flips(32);
         for (std::size_t i = 0; i < inputs; ++i) {

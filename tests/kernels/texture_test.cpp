@@ -26,7 +26,8 @@ kernel void lookups(
 }
 )";
 
-constexpr uint32_t page_words = 300;  // the image begins in the first page and ends in the second
+constexpr std::size_t page_words =
+    300;  // the image begins in the first page and ends in the second
 
 const Probe& one_page() {
     static const Probe& instance =

@@ -75,7 +75,8 @@ TEST(Environment, OneBrightTexelLightsFromItsPlace) {
     constexpr uint32_t column = 11;
     constexpr uint32_t row = 2;
     Environment map = map_of(0);
-    for (std::size_t c = 0; c < 3; ++c) map.pixels[3 * (row * width + column) + c] = 100;
+    for (std::size_t c = 0; c < 3; ++c)
+        map.pixels[3 * (std::size_t{row} * width + column) + c] = 100;
     for (const Vec3d& normal : {Vec3d{0, 1, 0}, Vec3d{-0.2, 0.5, 1}, Vec3d{1, 1, 0.5}}) {
         const double truth = irradiance_of_texel(column, row, 100, normal);
         for (const char* method : {"direct", "mis"}) {

@@ -118,7 +118,7 @@ TEST(SphereEnclosure, OfTwoHalves) {
         for (std::size_t k = 0; k < 3; ++k) {
             // An oblique plane: no triangle of the centrally symmetric icosphere has its centroid
             // on it.
-            const float* p = &sphere.positions[3 * sphere.indices[t + k]];
+            const float* p = &sphere.positions[std::size_t{3} * sphere.indices[t + k]];
             height += 0.123 * p[0] + 0.057 * p[1] + p[2];
         }
         auto& half = halves[height > 0 ? 0 : 1];

@@ -58,7 +58,7 @@ TEST(MediaBoundary, MayHaveSeamsOfRounding) {
     std::vector<uint32_t> indices;
     std::mt19937 random(1);
     std::uniform_real_distribution<float> rounding(-1e-7F, 1e-7F);
-    for (const uint32_t i : ball.indices) {
+    for (const std::size_t i : ball.indices) {
         indices.push_back(static_cast<uint32_t>(indices.size()));
         for (std::size_t k = 0; k < 3; ++k)
             corners.push_back(ball.positions[3 * i + k] + rounding(random));

@@ -41,7 +41,7 @@ TEST(NormalMaps, OfTheMiddleChangeNothing) {
     const RenderResult plain =
         render_scene(scene, depth_limited(orthographic({0, 0, 3}, {0, 0, 0}, 1.2), 32, 4, 0));
     for (const char* channel : {"normal.X", "normal.Y", "normal.Z"})
-        for (std::size_t i = 0; i < 32 * 32; ++i) {
+        for (std::size_t i = 0; i < std::size_t{32} * 32; ++i) {
             const float expected = plain.film.image.channels.at(channel)[i];
             EXPECT_NEAR(middle.film.image.channels.at(channel)[i], expected, 5e-5);
             EXPECT_NEAR(flat.film.image.channels.at(channel)[i], expected, 1e-6);

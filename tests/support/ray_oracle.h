@@ -4,6 +4,8 @@
 #include "support/meshes.h"
 
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <memory>
 #include <random>
 #include <vector>
@@ -26,6 +28,11 @@ struct TestHit {
     int primitive = -1;  // -1: none
 };
 static_assert(sizeof(TestHit) == 16);
+
+inline bool same_bits(const TestHit& a, const TestHit& b) {
+    using Bits = std::array<std::uint32_t, 4>;
+    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
 
 class RayOracle {
   public:

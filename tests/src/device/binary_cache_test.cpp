@@ -55,9 +55,9 @@ std::filesystem::path only_entry_of(const TemporaryFolder& folder) {
 class BinaryCacheOn : public testing::TestWithParam<const char*> {
   protected:
     void SetUp() override {
-        device_ = open(GetParam());  // before XDG_CACHE_HOME changes: PoCL looks at it once
-        cache_.emplace("XDG_CACHE_HOME", folder_.path().string());
-        if (!device_)
+        device = open(GetParam());  // before XDG_CACHE_HOME changes: PoCL looks at it once
+        cache_home.emplace("XDG_CACHE_HOME", folder.path().string());
+        if (!device)
             GTEST_SKIP()
                 << GetParam()
                 << " is not there: not installed, or other drivers were loaded before; ctest "
@@ -67,15 +67,15 @@ class BinaryCacheOn : public testing::TestWithParam<const char*> {
     // Builds, checks that the program works, and tells whether it came from the cache.
     bool built_from_cache() {
         BuildReport report;
-        const cl::Program program = build_program(*device_, source, &report);
-        EXPECT_EQ(answer(*device_, program), 42);
+        const cl::Program program = build_program(*device, source, &report);
+        EXPECT_EQ(answer(*device, program), 42);
         return report.from_cache;
     }
 
-    TemporaryFolder folder_;
-    std::optional<EnvironmentVariable> cache_;
-    EnvironmentVariable rusticl_{"RUSTICL_ENABLE", "llvmpipe"};
-    std::optional<Device> device_;
+    TemporaryFolder folder;
+    std::optional<EnvironmentVariable> cache_home;
+    EnvironmentVariable rusticl{"RUSTICL_ENABLE", "llvmpipe"};
+    std::optional<Device> device;
 };
 
 TEST_P(BinaryCacheOn, SecondBuildComesFromTheCache) {
@@ -85,7 +85,7 @@ TEST_P(BinaryCacheOn, SecondBuildComesFromTheCache) {
 
 TEST_P(BinaryCacheOn, ADamagedEntryIsBuiltAgainAndReplaced) {
     built_from_cache();
-    const std::filesystem::path entry = only_entry_of(folder_);
+    const std::filesystem::path entry = only_entry_of(folder);
     std::ifstream file(entry, std::ios::binary);
     const std::string intact(std::istreambuf_iterator<char>(file), {});
     std::string flipped = intact;
@@ -103,17 +103,17 @@ TEST_P(BinaryCacheOn, ABinaryTheDriverRefusesIsBuiltAgain) {
     if (GetParam() == std::string("rusticl"))
         GTEST_SKIP() << "Rusticl 22.3 ends the process where a binary is none of its own";
     std::string options = "-cl-std=CL1.2";
-    if (device_->info.correctly_rounded) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-    const BinaryCache cache(*device_, source, options);
+    if (device->info.correctly_rounded) options += " -cl-fp32-correctly-rounded-divide-sqrt";
+    const BinaryCache cache(*device, source, options);
     cache.store({'n', 'o', ' ', 'p', 'r', 'o', 'g', 'r', 'a', 'm'});
-    ASSERT_EQ(only_entry_of(folder_), cache.path());
+    ASSERT_EQ(only_entry_of(folder), cache.path());
     EXPECT_FALSE(built_from_cache());
     EXPECT_TRUE(built_from_cache());
 }
 
 TEST_P(BinaryCacheOn, AFolderThatCannotBeWrittenIsNoError) {
     const EnvironmentVariable cache(
-        "XDG_CACHE_HOME", folder_.write("file", "not a folder").string());
+        "XDG_CACHE_HOME", folder.write("file", "not a folder").string());
     EXPECT_FALSE(built_from_cache());
     EXPECT_FALSE(built_from_cache());
 }

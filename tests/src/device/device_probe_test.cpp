@@ -47,31 +47,31 @@ class ListDevices : public testing::Test {
 
     void list(const std::string& failure) {
         const Drivers drivers(failure);
-        rows_ = list_devices(std::chrono::seconds(60));
-        pocl_ = row_of(rows_, "Portable Computing Language");
-        ASSERT_NE(pocl_, nullptr);
+        rows = list_devices(std::chrono::seconds(60));
+        pocl = row_of(rows, "Portable Computing Language");
+        ASSERT_NE(pocl, nullptr);
     }
 
-    std::vector<DeviceInfo> rows_;
-    const DeviceInfo* pocl_ = nullptr;
+    std::vector<DeviceInfo> rows;
+    const DeviceInfo* pocl = nullptr;
 };
 
 TEST_F(ListDevices, ADriverThatReportsErrorsIsARow) {
     list("error");
-    EXPECT_EQ(pocl_->unusable, "");
-    EXPECT_GT(pocl_->default_pool, 0U);
-    EXPECT_EQ(rows_.size(), 2U);
+    EXPECT_EQ(pocl->unusable, "");
+    EXPECT_GT(pocl->default_pool, 0U);
+    EXPECT_EQ(rows.size(), 2U);
     const auto broken = std::find_if(
-        rows_.begin(), rows_.end(), [](const DeviceInfo& info) { return !info.unusable.empty(); });
-    ASSERT_NE(broken, rows_.end());
+        rows.begin(), rows.end(), [](const DeviceInfo& info) { return !info.unusable.empty(); });
+    ASSERT_NE(broken, rows.end());
     EXPECT_THAT(broken->unusable, HasSubstr("clGetDeviceInfo, OpenCL error -33"));
 }
 
 TEST_F(ListDevices, ADriverThatCrashesWhenAskedIsARow) {
     list("crash when asked");
-    EXPECT_EQ(pocl_->unusable, "");
-    ASSERT_NE(row_of(rows_, "broken"), nullptr);
-    EXPECT_THAT(row_of(rows_, "broken")->unusable, HasSubstr("crashes (signal 6)"));
+    EXPECT_EQ(pocl->unusable, "");
+    ASSERT_NE(row_of(rows, "broken"), nullptr);
+    EXPECT_THAT(row_of(rows, "broken")->unusable, HasSubstr("crashes (signal 6)"));
 }
 
 // Says nothing of PoCL: whether it answers in time is the machine's business.
@@ -86,11 +86,11 @@ TEST_F(ListDevices, ADriverThatHangsWhenAskedIsARow) {
 // Then the drivers are looked at one by one, and the message says how to leave the broken one out.
 TEST_F(ListDevices, ADriverThatCrashesOnLoadIsNamed) {
     list("crash on load");
-    EXPECT_THAT(pocl_->unusable, HasSubstr("OCL_ICD_VENDORS="));
-    EXPECT_THAT(pocl_->unusable, HasSubstr("pocl.icd"));
-    ASSERT_NE(row_of(rows_, "broken.icd"), nullptr);
+    EXPECT_THAT(pocl->unusable, HasSubstr("OCL_ICD_VENDORS="));
+    EXPECT_THAT(pocl->unusable, HasSubstr("pocl.icd"));
+    ASSERT_NE(row_of(rows, "broken.icd"), nullptr);
     EXPECT_THAT(
-        row_of(rows_, "broken.icd")->unusable, HasSubstr("crashes (signal 6) as it is loaded"));
+        row_of(rows, "broken.icd")->unusable, HasSubstr("crashes (signal 6) as it is loaded"));
 }
 
 TEST(ListNoDevices, WithoutADriverTheListIsEmpty) {

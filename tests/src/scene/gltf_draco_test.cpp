@@ -67,7 +67,7 @@ struct CompressedSquare : GltfBuilder {
 // The corners as (x, y, red, green): Draco is free to order them.
 std::multiset<std::vector<float>> corners(const Primitive& primitive) {
     std::multiset<std::vector<float>> result;
-    for (const std::uint32_t i : primitive.indices)
+    for (const std::size_t i : primitive.indices)
         result.insert(
             {std::round(1000 * primitive.positions[3 * i]) / 1000,
              std::round(1000 * primitive.positions[3 * i + 1]) / 1000, primitive.colors[3 * i],

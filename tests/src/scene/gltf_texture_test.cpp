@@ -71,7 +71,7 @@ TEST(GltfTexture, KeepsSixteenBitsAndIgnoresGamma) {
 }
 
 TEST(GltfTexture, ReadsJpegs) {
-    const std::vector<uint8_t> grey(4 * 64, 200);
+    const std::vector<uint8_t> grey(std::size_t{4} * 64, 200);
     for (const uint32_t word : words_of(data_uri(jpeg_file(8, 8, grey), "image/jpeg"))) {
         for (const uint32_t shift : {0U, 8U, 16U}) EXPECT_NEAR(word >> shift & 255U, 200, 2);
         EXPECT_EQ(word >> 24U, 255U);

@@ -53,9 +53,9 @@ TEST(SampleFiles, ModelsLoadOrSayWhyNot) {
     counts["models/MultipleScenes/MultipleScenes.gltf"] = 2;  // of the default scene, its second
     for (const auto& [file, count] : counts) {
         SCOPED_TRACE(file);
+        const fs::path path = assets / file;
         std::size_t loaded = 0;
-        const std::string error =
-            error_of([&] { loaded = load_gltf(assets / file).triangle_count(); });
+        const std::string error = error_of([&] { loaded = load_gltf(path).triangle_count(); });
         if (const auto failure = failures.find(file); failure != failures.end()) {
             EXPECT_THAT(error, HasSubstr(failure->second));
         } else {
@@ -72,8 +72,9 @@ TEST(SampleFiles, ModelsRenderTheSameTwiceWithoutNaN) {
     std::size_t rendered = 0;
     for (const auto& [file, count] : listed_triangle_counts(assets / "INDEX.md")) {
         SCOPED_TRACE(file);
+        const fs::path path = assets / file;
         Scene scene;
-        if (!error_of([&] { scene = load_gltf(assets / file); }).empty()) continue;
+        if (!error_of([&] { scene = load_gltf(path); }).empty()) continue;
         scene.environment = constant_environment(1);
         const RenderSettings settings = square_settings("mis", choose_camera(scene, ""), 24, 4);
         const RenderResult first = render(test_device(), scene, settings);
