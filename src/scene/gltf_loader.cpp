@@ -4,6 +4,7 @@
 #include "scene/gltf_ignored.h"
 #include "scene/gltf_instancing.h"
 #include "scene/gltf_material.h"
+#include "scene/gltf_medium.h"
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_skin.h"
@@ -145,6 +146,7 @@ Scene load_gltf(
     Ignored ignored;
     scene.materials = read_materials(file, ignored);
     note_ignored_features(file.model, ignored);
+    note_misplaced_media(file.model, ignored);
     const std::vector<PlacedNode> nodes = place_nodes(file, selector);
     MeshInstancer meshes(file, nodes, scene, ignored);
     for (const PlacedNode& placed : nodes) {

@@ -36,6 +36,10 @@ bool is_named_like_ours(const std::string& key) {
     return std::ranges::mismatch(key, ours, same).in2 == ours.end();
 }
 
+bool has_medium(const tinygltf::Value& extras) {
+    return extras.IsObject() && extras.Has(extras_key);
+}
+
 class MediumReader {
   public:
     MediumReader(const GltfFile& file, int index)
@@ -43,7 +47,7 @@ class MediumReader {
           source_(file.model.materials[static_cast<std::size_t>(index)]),
           where_(label("material", index, source_.name)) {}
 
-    bool has_extras() const { return source_.extras.IsObject() && source_.extras.Has(extras_key); }
+    bool has_extras() const { return has_medium(source_.extras); }
 
     double transmission() const {
         return extension_number("KHR_materials_transmission", "transmissionFactor", 0);
@@ -276,6 +280,25 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
         material.textures[TEXTURE_METALLIC_ROUGHNESS] = {};
         material.textures[TEXTURE_TRANSMISSION] = {};
     }
+}
+
+void note_misplaced_media(const tinygltf::Model& model, Ignored& ignored) {
+    std::size_t misplaced = 0;
+    const auto look = [&](const tinygltf::Value& extras) { misplaced += has_medium(extras); };
+    for (const tinygltf::Node& node : model.nodes) look(node.extras);
+    for (const tinygltf::Mesh& mesh : model.meshes) {
+        look(mesh.extras);
+        for (const tinygltf::Primitive& primitive : mesh.primitives) look(primitive.extras);
+    }
+    for (const tinygltf::Material& material : model.materials)
+        for (const auto& [name, extension] : material.extensions) {
+            look(extension);
+            if (extension.IsObject()) look(extension.Get("extras"));
+        }
+    if (misplaced > 0)
+        ignored.add(
+            fmt::format("members {} outside of extras of materials", extras_key),
+            "rendered as if they were not there", misplaced);
 }
 
 }  // namespace wavepath

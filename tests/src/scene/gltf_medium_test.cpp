@@ -242,6 +242,30 @@ TEST(GltfMedium, SaysWhatWouldStayClear) {
         ElementsAre(HasSubstr("scattering of volumes without attenuationDistance")));
 }
 
+TEST(GltfMedium, SaysWhereItIsMisplaced) {
+    const Json extras = {{"wavepath_medium", {{"sigma_s", {1, 1, 1}}}}};
+    const auto expect_said = [](const GltfBuilder& gltf) {
+        EXPECT_THAT(
+            load(gltf).ignored,
+            ElementsAre(HasSubstr("members wavepath_medium outside of extras of materials (1)")));
+    };
+    GltfBuilder gltf = file_with(boundary());
+    gltf.root["nodes"][0]["extras"] = extras;
+    expect_said(gltf);
+    gltf = file_with(boundary());
+    gltf.root["meshes"][0]["extras"] = extras;
+    expect_said(gltf);
+    gltf = file_with(boundary());
+    gltf.root["meshes"][0]["primitives"][0]["extras"] = extras;
+    expect_said(gltf);
+    Json material = boundary();
+    material["extensions"]["KHR_materials_volume"]["extras"] = extras;
+    expect_said(file_with(material));
+    material = boundary();
+    material["extensions"]["KHR_materials_volume"].update(extras);
+    expect_said(file_with(material));
+}
+
 TEST(GltfMedium, IsBoundedWithoutAlpha) {
     for (const char* mode : {"MASK", "BLEND"}) {
         Json material = boundary();
