@@ -1,9 +1,10 @@
 // Emissive triangles, sampled uniformly by area (notes 5: sourceArea * visible * G *
-// emittedRadiance).
+// emittedRadiance) or by solid angle.
 #pragma once
 
 #include "geometry/interaction.cl"
 #include "lights/light_choice.cl"
+#include "lights/solid_angle.cl"
 #include "sampling/mis.cl"
 #include "shared/inline.h"
 
@@ -13,6 +14,7 @@ typedef struct {
     Vec3 radiance;  // divided by the density: L_e / pdf_w, or intensity terms of a punctual light
     float pdf_w;    // [1/sr] of the point, light choice included; PDF_CERTAIN: a bsdf sample cannot
                     // find this light
+    Sample2 at;     // barycentric weights of corners 1 and 2 of an area light
 } LightSample;
 
 INLINE LightSample area_light_sample(
@@ -22,18 +24,29 @@ INLINE LightSample area_light_sample(
     const Sample2 u) {
     const int primitive = light->kind == LIGHT_TRIANGLE ? (int)light->primitive : 0;
     global const float* triangle = triangles + TRIANGLE_FLOATS * primitive;
-    const Sample2 b = sample_triangle(u);
+    LightSample s;
+    s.at = sample_triangle(u);
+    float solid_angle = 0.0f;
+    int by_solid_angle = 0;
+    if (LIGHTS_BY_SOLID_ANGLE) {
+        const SeenTriangle seen = see_triangle(triangle, from);
+        const Sample2 at = sample_seen_triangle(seen, u);
+        solid_angle = seen.solid_angle;
+        by_solid_angle = is_seen_well(seen);
+        s.at.u = by_solid_angle ? at.u : s.at.u;
+        s.at.v = by_solid_angle ? at.v : s.at.v;
+    }
     const Vec3 face = scale3(triangle_cross(triangle), 0.5f / light->area);
-    const Vec3 point = interpolate(triangle, TRIANGLE_CORNERS, b.u, b.v);
+    const Vec3 point = interpolate(triangle, TRIANGLE_CORNERS, s.at.u, s.at.v);
     const Vec3 to_light = sub3(point, from);
     const float distance2 = dot3(to_light, to_light);
 
-    LightSample s;
     s.wi = scale3(to_light, 1.0f / sqrt(distance2));
     const float cos_front = -dot3(s.wi, face);
     const float cos_light = fabs(cos_front);
     const int lit = (light->double_sided ? cos_light : cos_front) > 0.0f;
     s.pdf_w = pdf_a_to_w(light->pmf / light->area, distance2, cos_light);
+    s.pdf_w = by_solid_angle ? light->pmf / solid_angle : s.pdf_w;
     // The connection ends just before the light, on the side it is seen from.
     s.p = leave(point, scale3(face, cos_front > 0.0f ? 1.0f : -1.0f));
     s.radiance = scale3(
@@ -42,8 +55,17 @@ INLINE LightSample area_light_sample(
     return s;
 }
 
-// pdf_w [1/sr] with which light sampling would have chosen the point that a bsdf ray met.
+// pdf_w [1/sr] with which light sampling from `from` would have chosen the point that a bsdf ray
+// met.
 INLINE float area_light_pdf_w(
-    global const DeviceLight* light, const float distance, const float cos_light) {
-    return pdf_a_to_w(light->pmf / light->area, distance * distance, cos_light);
+    global const float* triangles,
+    global const DeviceLight* light,
+    const Vec3 from,
+    const float distance,
+    const float cos_light) {
+    const float by_area = pdf_a_to_w(light->pmf / light->area, distance * distance, cos_light);
+    if (!LIGHTS_BY_SOLID_ANGLE) return by_area;
+    const SeenTriangle seen =
+        see_triangle(triangles + TRIANGLE_FLOATS * (int)light->primitive, from);
+    return is_seen_well(seen) ? light->pmf / seen.solid_angle : by_area;
 }

@@ -1,6 +1,6 @@
 // Where the light is that a path would be connected to, before it is known from where: equiangular
 // distances are drawn about it (media/homogeneous.cl), and direct_light, drawing the same numbers,
-// chooses it again.
+// chooses the same light, and the same point of it where that is sampled by area.
 #pragma once
 
 #include "geometry/interaction.cl"

@@ -100,12 +100,12 @@ kernel void direct_light(
         const int is_area = light->kind == LIGHT_TRIANGLE;
         if ((HAS_EMISSION_TEXTURES || HAS_ALPHA) && is_area) {
             global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * light->primitive;
-            const Sample2 b = sample_triangle(unit_pair(point));
             if (HAS_EMISSION_TEXTURES)
-                area.radiance =
-                    mul3(area.radiance, emission_on_triangle(TEXTURES, triangle, b.u, b.v));
+                area.radiance = mul3(
+                    area.radiance, emission_on_triangle(TEXTURES, triangle, area.at.u, area.at.v));
             if (HAS_ALPHA)
-                area.radiance = scale3(area.radiance, cover_of(TEXTURES, triangle, b.u, b.v));
+                area.radiance =
+                    scale3(area.radiance, cover_of(TEXTURES, triangle, area.at.u, area.at.v));
         }
         s.p = select3(is_area, area.p, s.p);
         s.wi = select3(is_area, area.wi, s.wi);
