@@ -1,5 +1,6 @@
 // Triangles as they are seen from a point, sampled uniformly by solid angle. By area (notes 5) the
-// estimate grows without bound towards a lamp, as cos / distance^2.
+// density falls to nothing towards a lamp, and mis leaves those connections to directions, which
+// seldom find it.
 #pragma once
 
 #include "geometry/attributes.cl"
@@ -7,8 +8,8 @@
 #include "shared/features.h"
 #include "shared/inline.h"
 
-// Where directions are aimed at the surroundings of the lamps (lights/guide.cl) and what is there
-// may scatter. Lamps elsewhere look small: there they are sampled by area, which costs less.
+// Where directions are aimed at the surroundings of the lamps (lights/guide.cl) and something in
+// the scene scatters. Lamps elsewhere look small: there they are sampled by area, which costs less.
 #ifndef LIGHTS_BY_SOLID_ANGLE
 #define LIGHTS_BY_SOLID_ANGLE (HAS_GUIDE & ((HAS_MEDIA & MEDIA_SCATTER) != 0))
 #endif
@@ -22,9 +23,9 @@ typedef struct {
     float solid_angle;                         // [sr], 0 .. 2 pi
 } SeenTriangle;
 
-// x y. LLVM's SLP pass joins the two roots of a product in a vector, and the kernel around them
-// stays scalar on PoCL.
-INLINE float product_of_roots(const float x, const float y) {
+// x * y as an fma: of the alike factors of a product LLVM's SLP pass makes a vector, and the kernel
+// around them stays scalar on PoCL.
+INLINE float product_apart(const float x, const float y) {
     return fma(x, y, 0.0f);
 }
 
@@ -40,7 +41,7 @@ INLINE SeenTriangle see_triangle(global const float* triangle, const Vec3 from) 
     s.ab = dot3(a, b);
     s.bc = dot3(b, c);
     s.ca = dot3(c, a);
-    s.product = product_of_roots(product_of_roots(s.distance_a, s.distance_b), s.distance_c);
+    s.product = product_apart(product_apart(s.distance_a, s.distance_b), s.distance_c);
     s.volume = fabs(dot3(a, cross3(b, c)));
     const float rest = fma(s.bc, s.distance_a, fma(s.ca, s.distance_b, s.product));
     s.solid_angle = 4.0f * PI_F * atan2_turns(s.volume, fma(s.ab, s.distance_c, rest));
@@ -48,9 +49,10 @@ INLINE SeenTriangle see_triangle(global const float* triangle, const Vec3 from) 
 }
 
 // Whether floats tell the solid angle and its parts: the triangle is neither small (some 0.005 sr),
-// and as well sampled by area, nor seen from close to its plane.
+// and as well sampled by area, nor seen from close to its plane, nor so tiny that the square of
+// its volume underflows.
 INLINE int is_seen_well(const SeenTriangle s) {
-    return s.volume > 1e-2f * s.product;
+    return (s.volume > 1e-2f * s.product) & (s.volume > 1e-18f);
 }
 
 // Barycentric weights of corners 1 and 2 of the point in a direction uniform over the solid angle:
@@ -59,7 +61,7 @@ INLINE int is_seen_well(const SeenTriangle s) {
 // part without any angle of the triangle [Peters 2021].
 INLINE Sample2 sample_seen_triangle(const SeenTriangle s, const Sample2 u) {
     const SineCosine half_part = sincos_2pi(0.25f * INV_PI_F * u.u * s.solid_angle);
-    const float distance_ca = product_of_roots(s.distance_c, s.distance_a);
+    const float distance_ca = product_apart(s.distance_c, s.distance_a);
     const float cos_ca = s.ca / distance_ca;
     const float along_a = fma(
         s.volume, half_part.cosine, -fma(s.bc, s.distance_a, s.ca * s.distance_b) * half_part.sine);
@@ -70,7 +72,7 @@ INLINE Sample2 sample_seen_triangle(const SeenTriangle s, const Sample2 u) {
     const float r_a = fma(twice, along_a, -1.0f);
     const float r_c = twice * along_c;
     const float cos_br =
-        fma(r_c * s.bc, s.distance_a, product_of_roots(r_a * s.ab, s.distance_c)) / s.product;
+        fma(r_c * s.bc, s.distance_a, product_apart(r_a * s.ab, s.distance_c)) / s.product;
     const float versine = 1.0f - cos_br;
     const float t = sqrt(u.v * fma(-u.v, versine, 2.0f) / (2.0f - versine));
     // the weights of the unit vectors over their distances, all times the three distances

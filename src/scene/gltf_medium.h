@@ -13,8 +13,8 @@ namespace wavepath {
 // coefficients that mean nothing.
 void read_medium(const GltfFile& file, int index, Material& material, Ignored& ignored);
 
-// Notes extras.wavepath_medium of what encloses nothing: nodes, meshes, their primitives, and the
-// extensions of a material instead of the material itself.
+// Notes wavepath_medium in the extras of what encloses nothing: nodes, meshes and their primitives;
+// and in the extensions of materials or their extras.
 void note_misplaced_media(const tinygltf::Model& model, Ignored& ignored);
 
 }  // namespace wavepath
