@@ -14,6 +14,7 @@
 #pragma once
 
 #include "geometry/bvh.cl"
+#include "sampling/vector.cl"
 #include "shared/small_mesh.h"
 
 #ifndef RAY_PACKETS
@@ -64,22 +65,19 @@ INLINE int packet_has_room(const RayPacket* packet) {
 INLINE void packet_add(
     RayPacket* packet,
     const uint item,
-    const float ox,
-    const float oy,
-    const float oz,
-    const float dx,
-    const float dy,
-    const float dz,
+    const Vec3 origin,
+    const Vec3 direction,
     const float t_max,
     const RayStart start) {
     const int k = packet->count;
-    packet->ox[k] = ox;
-    packet->oy[k] = oy;
-    packet->oz[k] = oz;
-    packet->dx[k] = dx;
-    packet->dy[k] = dy;
-    packet->dz[k] = dz;
-    packet->t_max[k] = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
+    packet->ox[k] = origin.x;
+    packet->oy[k] = origin.y;
+    packet->oz[k] = origin.z;
+    packet->dx[k] = direction.x;
+    packet->dy[k] = direction.y;
+    packet->dz[k] = direction.z;
+    packet->t_max[k] =
+        end_of_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, t_max);
     packet->start_t[k] = start.t;
     packet->start_primitive[k] = start.primitive;
     packet->item[k] = item;

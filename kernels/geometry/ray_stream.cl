@@ -15,6 +15,7 @@
 #pragma once
 
 #include "geometry/bvh.cl"
+#include "sampling/vector.cl"
 
 #ifndef RAYS_PER_ITEM
 #define RAYS_PER_ITEM 1  // rays that a work-item traces; 1: each on its own
@@ -69,22 +70,19 @@ INLINE const StreamRay* stream_ended(const RayStream* stream, const int k) {
 INLINE void stream_add(
     RayStream* stream,
     const uint item,
-    const float ox,
-    const float oy,
-    const float oz,
-    const float dx,
-    const float dy,
-    const float dz,
+    const Vec3 origin,
+    const Vec3 direction,
     const float t_max,
     const RayStart start,
     const uint key) {
     --stream->idles;
     const int i = stream->idle[stream->idles];
     StreamRay* ray = &stream->rays[i];
-    ray->slabs = slab_ray(ox, oy, oz, dx, dy, dz);
-    ray->sheared = shear_ray(ox, oy, oz, dx, dy, dz);
+    ray->slabs = slab_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z);
+    ray->sheared = shear_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z);
     if (STARTS_BEHIND) ray->start = start;
-    ray->hit.t = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
+    ray->hit.t =
+        end_of_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, t_max);
     ray->hit.u = 0.0f;
     ray->hit.v = 0.0f;
     ray->hit.primitive = -1;

@@ -17,6 +17,20 @@ typedef struct {
     Sample2 at;     // barycentric weights of corners 1 and 2 of an area light
 } LightSample;
 
+// pdf_w [1/sr], light choice included, with which the point of the triangle at squared distance
+// `distance2` from `from`, seen there under cosine `cos_light`, is chosen.
+INLINE float area_light_pdf_w(
+    global const float* triangle,
+    global const DeviceLight* light,
+    const Vec3 from,
+    const float distance2,
+    const float cos_light) {
+    const float by_area = pdf_a_to_w(light->pmf / light->area, distance2, cos_light);
+    if (!LIGHTS_BY_SOLID_ANGLE) return by_area;
+    const SeenTriangle seen = see_triangle(triangle, from);
+    return is_seen_well(seen) ? light->pmf / seen.solid_angle : by_area;
+}
+
 INLINE LightSample area_light_sample(
     global const float* triangles,
     global const DeviceLight* light,
@@ -26,13 +40,10 @@ INLINE LightSample area_light_sample(
     global const float* triangle = triangles + TRIANGLE_FLOATS * primitive;
     LightSample s;
     s.at = sample_triangle(u);
-    float solid_angle = 0.0f;
-    int by_solid_angle = 0;
     if (LIGHTS_BY_SOLID_ANGLE) {
         const SeenTriangle seen = see_triangle(triangle, from);
         const Sample2 at = sample_seen_triangle(seen, u);
-        solid_angle = seen.solid_angle;
-        by_solid_angle = is_seen_well(seen);
+        const int by_solid_angle = is_seen_well(seen);
         s.at.u = by_solid_angle ? at.u : s.at.u;
         s.at.v = by_solid_angle ? at.v : s.at.v;
     }
@@ -45,27 +56,11 @@ INLINE LightSample area_light_sample(
     const float cos_front = -dot3(s.wi, face);
     const float cos_light = fabs(cos_front);
     const int lit = (light->double_sided ? cos_light : cos_front) > 0.0f;
-    s.pdf_w = pdf_a_to_w(light->pmf / light->area, distance2, cos_light);
-    s.pdf_w = by_solid_angle ? light->pmf / solid_angle : s.pdf_w;
+    s.pdf_w = area_light_pdf_w(triangle, light, from, distance2, cos_light);
     // The connection ends just before the light, on the side it is seen from.
     s.p = leave(point, scale3(face, cos_front > 0.0f ? 1.0f : -1.0f));
     s.radiance = scale3(
         vec3(light->intensity_r, light->intensity_g, light->intensity_b),
         lit ? 1.0f / s.pdf_w : 0.0f);
     return s;
-}
-
-// pdf_w [1/sr] with which light sampling from `from` would have chosen the point that a bsdf ray
-// met.
-INLINE float area_light_pdf_w(
-    global const float* triangles,
-    global const DeviceLight* light,
-    const Vec3 from,
-    const float distance,
-    const float cos_light) {
-    const float by_area = pdf_a_to_w(light->pmf / light->area, distance * distance, cos_light);
-    if (!LIGHTS_BY_SOLID_ANGLE) return by_area;
-    const SeenTriangle seen =
-        see_triangle(triangles + TRIANGLE_FLOATS * (int)light->primitive, from);
-    return is_seen_well(seen) ? light->pmf / seen.solid_angle : by_area;
 }

@@ -8,12 +8,12 @@
 //
 // One work-item a slot.
 
+#include "lights/connection.cl"
 #include "lights/punctual.cl"
 #include "media/boundary.cl"
 #include "media/homogeneous.cl"
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
-#include "shared/queues.h"
 
 kernel void connect_through_media(
     constant const RenderParams* restrict settings,
@@ -31,8 +31,7 @@ kernel void connect_through_media(
     const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
-    fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+    const float t_max = open_connection(shadows, fates, stride, slot);
     if (t_max <= 0.0f) return;
     const Vec3 origin = load3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot);
     const Vec3 direction = load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot);

@@ -111,9 +111,8 @@ INLINE void intersect_packets(
         for (; slot < end && packet_has_room(&packet); ++slot) {
             if (!has_ray(hits, stride, slot)) continue;
             packet_add(
-                &packet, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
-                PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
-                PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
+                &packet, slot, load3(PLANE(rays, RAY_ORIGIN_X), stride, slot),
+                load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), INFINITY,
                 load_start(path_media, stride, slot));
         }
         if (packet.count == 0) break;
@@ -146,9 +145,8 @@ INLINE void intersect_stream(
         for (; slot < end && stream_has_room(&stream); ++slot) {
             if (!has_ray(hits, stride, slot)) continue;
             stream_add(
-                &stream, slot, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
-                PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
-                PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
+                &stream, slot, load3(PLANE(rays, RAY_ORIGIN_X), stride, slot),
+                load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), INFINITY,
                 load_start(path_media, stride, slot), HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
         }
         stream_step(&stream, nodes, blocks, cover, 0);

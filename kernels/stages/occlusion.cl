@@ -8,11 +8,11 @@
 
 #include "geometry/ray_packet.cl"
 #include "geometry/ray_stream.cl"
+#include "lights/connection.cl"
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
 #include "shared/path.h"
-#include "shared/queues.h"
 
 INLINE void add_connection(
     global const float* shadows, global float* radiances, const size_t stride, const size_t slot) {
@@ -32,14 +32,11 @@ INLINE void connect_packets(
     packet_open(&packet);
     while (slot < end) {
         for (; slot < end && packet_has_room(&packet); ++slot) {
-            const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
-            fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+            const float t_max = open_connection(shadows, fates, stride, slot);
             if (t_max <= 0.0f) continue;
             packet_add(
-                &packet, slot, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
-                PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
-                PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
-                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin());
+                &packet, slot, load3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot),
+                load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot), t_max, at_origin());
         }
         if (packet.count == 0) break;
         const uint blocked = any_of_packet(mesh, &packet);
@@ -65,14 +62,11 @@ INLINE void connect_stream(
     stream_open(&stream);
     do {
         for (; slot < end && stream_has_room(&stream); ++slot) {
-            const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
-            fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+            const float t_max = open_connection(shadows, fates, stride, slot);
             if (t_max <= 0.0f) continue;
             stream_add(
-                &stream, slot, PLANE(shadows, SHADOW_ORIGIN_X)[slot],
-                PLANE(shadows, SHADOW_ORIGIN_Y)[slot], PLANE(shadows, SHADOW_ORIGIN_Z)[slot],
-                PLANE(shadows, SHADOW_DIRECTION_X)[slot], PLANE(shadows, SHADOW_DIRECTION_Y)[slot],
-                PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max, at_origin(),
+                &stream, slot, load3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot),
+                load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot), t_max, at_origin(),
                 HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
         }
         stream_step(&stream, nodes, blocks, cover, 1);
@@ -92,8 +86,7 @@ INLINE void connect_alone(
     global const float* shadows,
     global float* radiances,
     global uchar* fates) {
-    const float t_max = PLANE(shadows, SHADOW_T_MAX)[slot];
-    fates[slot] = t_max > 0.0f ? FATE_CONNECTED : 0u;
+    const float t_max = open_connection(shadows, fates, stride, slot);
     if (t_max <= 0.0f) return;
     const int blocked = any_hit(
         nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot], PLANE(shadows, SHADOW_ORIGIN_Y)[slot],

@@ -47,9 +47,11 @@ kernel void shade_emission(
     if (SAMPLE_LIGHTS) {
         const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
         const float cos_light = -dot3(ng, load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));
+        const float distance = PLANE(hits, HIT_T)[slot];
         const float light_pdf_w = area_light_pdf_w(
-            triangles, lights + (int)row, load3(PLANE(rays, RAY_ORIGIN_X), stride, slot),
-            PLANE(hits, HIT_T)[slot], cos_light);
+            triangles + (size_t)TRIANGLE_FLOATS * as_int(PLANE(hits, HIT_PRIMITIVE)[slot]),
+            lights + (int)row, load3(PLANE(rays, RAY_ORIGIN_X), stride, slot), distance * distance,
+            cos_light);
         const float share = WEIGH_BOTH ? power_heuristic(pdf_w, light_pdf_w) : 0.0f;
         weight = pdf_w == PDF_CERTAIN ? 1.0f : share;
     }

@@ -45,7 +45,7 @@ kernel void light_samples(
         sum += value;
         squares += value * value;
         const float distance = (1.0f - from.z) / s.wi.z;
-        const float again = area_light_pdf_w(triangles, lights + chosen, from, distance, fabs(s.wi.z));
+        const float again = area_light_pdf_w(triangles + TRIANGLE_FLOATS * chosen, lights + chosen, from, distance * distance, fabs(s.wi.z));
         worst = max(worst, fabs(again / s.pdf_w - 1.0f));
     }
     out[4 * i] = solid_angle / (float)n;

@@ -32,7 +32,7 @@ kernel void closest(
             global const float* r = rays + 8 * i;
             if (r[6] < 0.0f) continue;
             packet_add(
-                &packet, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], ray_start(r[7], 4));
+                &packet, i, vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6], ray_start(r[7], 4));
         }
         PacketHits nearest, next;
         closest_of_packet(mesh, &packet, &nearest, &next);
@@ -54,7 +54,7 @@ kernel void blocked(
         for (; i < end && packet_has_room(&packet); ++i) {
             global const float* r = rays + 8 * i;
             if (r[6] < 0.0f) continue;
-            packet_add(&packet, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin());
+            packet_add(&packet, i, vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6], at_origin());
         }
         const uint blocked = any_of_packet(mesh, &packet);
         for (int k = 0; k < packet.count; ++k)

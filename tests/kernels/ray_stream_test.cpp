@@ -31,7 +31,7 @@ void trace(
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
             if (r[6] < 0.0f) continue;
-            stream_add(&stream, i, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
+            stream_add(&stream, i, vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6], at_origin(), 0);
         }
         stream_step(&stream, nodes, blocks, &cover, any);
         for (int k = 0; k < stream.ended; ++k) out[stream_ended(&stream, k)->item] = stream_ended(&stream, k)->hit;
