@@ -1,6 +1,7 @@
 // WAVEPATH_HIT_RAYS: rays in all at the generated meshes, and at the bundled scenes; 10^6 and 10^7
 // by default. WAVEPATH_INSIDE_RAYS: those from inside closed meshes, 10^6 by default; 10^9 takes an
 // hour or two.
+#include "build_paths.h"
 #include "scene/bvh_builder.h"
 #include "scene/gltf_loader.h"
 #include "scene/normalise.h"

@@ -1,6 +1,7 @@
 // The bundled scenes against another renderer: means of 8 x 8 blocks of 256 x 256 pixels with their
 // standard errors, from Mitsuba 3.9 (path or volpath, box filter), in reference/. Block (0, 0) is
 // the top left one.
+#include "build_paths.h"
 #include "scene/gltf_loader.h"
 #include "support/media.h"
 #include "support/rendering.h"

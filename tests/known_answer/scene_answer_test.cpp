@@ -1,4 +1,5 @@
 // The known answers that the READMEs of scenes/ state, from the scenes' own files.
+#include "build_paths.h"
 #include "scene/gltf_loader.h"
 #include "scene/normalise.h"
 #include "support/rendering.h"

@@ -1,4 +1,5 @@
 // The same command gives the same bits, however the work is divided.
+#include "build_paths.h"
 #include "shared/small_mesh.h"
 #include "support/environment_variable.h"
 #include "support/media.h"

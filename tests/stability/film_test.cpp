@@ -1,4 +1,5 @@
 // Long sums, non-finite samples, paths without an end.
+#include "build_paths.h"
 #include "support/environment_variable.h"
 #include "support/rendering.h"
 #include "support/temporary_folder.h"

@@ -1,5 +1,6 @@
 // Numbers that are none, put into the kernels one at a time: every sample that holds one is
 // counted.
+#include "build_paths.h"
 #include "support/environment_variable.h"
 #include "support/rendering.h"
 #include "support/temporary_folder.h"

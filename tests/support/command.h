@@ -1,6 +1,7 @@
 // The program as a user meets it, for tests of its commands.
 #pragma once
 
+#include "build_paths.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,8 @@
 // that WAVEPATH_ASSETS names.
 #pragma once
 
+#include "build_paths.h"
+
 #include <cstdlib>
 #include <filesystem>
 

@@ -1,4 +1,5 @@
 #include "device/device_probe.h"
+#include "build_paths.h"
 
 #include "device/selection.h"
 #include "support/environment_variable.h"

@@ -1,4 +1,5 @@
 #include "device/program.h"
+#include "build_paths.h"
 
 #include "device/embedded_kernels.h"
 #include "error.h"

@@ -1,4 +1,5 @@
 #include "measure/report.h"
+#include "build_paths.h"
 
 #include <gtest/gtest.h>
 
