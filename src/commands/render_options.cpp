@@ -126,7 +126,8 @@ std::optional<Environment> parse_environment(const RenderOptions& options) {
 }  // namespace
 
 void add_render_options(CLI::App& app, RenderOptions& o) {
-    app.add_option("scene", o.scene, "The scene, .gltf or .glb")->required()->type_name("SCENE");
+    // Not "scene": CLI11 2.4 takes an argument and a flag of one name for the same.
+    app.add_option("SCENE", o.scene, "The scene, .gltf or .glb")->required()->type_name("");
     app.add_option(
            "--size", o.size, "Picture size in pixels; default 512 high, as wide as the camera says")
         ->type_name("WxH");

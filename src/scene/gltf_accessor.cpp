@@ -130,7 +130,8 @@ Rows find_rows(
     return {bytes.data() + byte_offset, stride};
 }
 
-std::size_t checked_sparse_offset(const GltfFile& file, int byte_offset, std::string_view where) {
+std::size_t checked_sparse_offset(
+    const GltfFile& file, std::int64_t byte_offset, std::string_view where) {
     if (byte_offset < 0)
         file.fail(where, "sparse byteOffset {} is negative; export again", byte_offset);
     return static_cast<std::size_t>(byte_offset);
@@ -144,17 +145,19 @@ void for_each_sparse_row(
     std::size_t row_size,
     std::string_view where,
     const Store& store) {
-    const auto& [count, is_sparse, indices, values] = accessor.sparse;
-    if (!is_sparse) return;
-    if (count < 1 || static_cast<std::size_t>(count) > accessor.count)
+    const auto& sparse = accessor.sparse;
+    if (!sparse.isSparse) return;
+    if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count)
         file.fail(
-            where, "sparse count {} is not in 1 .. {}; repair it or export again", count,
+            where, "sparse count {} is not in 1 .. {}; repair it or export again", sparse.count,
             accessor.count);
+    const auto& indices = sparse.indices;
+    const auto& values = sparse.values;
     if (!is_index_component(indices.componentType))
         file.fail(
             where, "sparse indices have component type {}; export as UNSIGNED_BYTE, _SHORT or _INT",
             indices.componentType);
-    const auto replaced = static_cast<std::size_t>(count);
+    const auto replaced = static_cast<std::size_t>(sparse.count);
     const Rows targets = find_rows(
         file, indices.bufferView, checked_sparse_offset(file, indices.byteOffset, where), replaced,
         component_size(indices.componentType), where);

@@ -68,6 +68,28 @@ bool read_and_note(
     return tinygltf::ReadWholeFile(bytes, error, path, nullptr);
 }
 
+[[maybe_unused]] bool measure(
+    std::size_t* bytes, std::string* error, const std::string& path, void*) {
+    std::error_code status;
+    *bytes = fs::file_size(path, status);
+    if (status) *error += fmt::format("{}: {}\n", path, status.message());
+    return !status;
+}
+
+// How tinygltf gets at files; those it reads are noted in `files`. From 2.9 on it asks for their
+// size as well, and takes all callbacks or none.
+template <typename Callbacks = tinygltf::FsCallbacks>
+Callbacks access_noted_in(std::vector<fs::path>& files) {
+    Callbacks access{};
+    access.FileExists = is_file_beside_scene;
+    access.ExpandFilePath = tinygltf::ExpandFilePath;
+    access.ReadWholeFile = read_and_note;
+    access.WriteWholeFile = tinygltf::WriteWholeFile;
+    if constexpr (requires { access.GetFileSizeInBytes; }) access.GetFileSizeInBytes = measure;
+    access.user_data = &files;
+    return access;
+}
+
 // tinygltf would decode every image while it parses, and fail for one that it cannot decode. Those
 // in buffer views are left there: their range has not been checked yet.
 bool leave_image_encoded(
@@ -108,9 +130,7 @@ std::string parse(std::span<const unsigned char> bytes, const fs::path& folder, 
     tinygltf::Model& model = file.model;
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(leave_image_encoded, nullptr);
-    parser.SetFsCallbacks(
-        {is_file_beside_scene, tinygltf::ExpandFilePath, read_and_note, tinygltf::WriteWholeFile,
-         &file.files});
+    parser.SetFsCallbacks(access_noted_in(file.files));
     const auto size = static_cast<unsigned int>(bytes.size());
     std::string error, warning;
     try {
