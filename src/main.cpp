@@ -1,17 +1,24 @@
 #include "commands/devices.h"
 #include "commands/interrupt.h"
 #include "commands/manual.h"
+#include "commands/outputs.h"
 #include "commands/profile.h"
 #include "commands/render.h"
 #include "device/device.h"
 #include "device/device_probe.h"
 #include "device/opencl.h"
+#include "error.h"
 
+#include <fcntl.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -19,12 +26,13 @@
 namespace {
 
 constexpr int exit_failure = 1;
-constexpr int exit_interrupted = 130;
+constexpr int exit_signalled = 128;  // plus the signal's number, as in a shell
 
 constexpr const char* notes =
     "Exit status: 0 done; 1 an error, said in one line on standard error; 130 interrupted by "
     "Ctrl-C,\n"
-    "the picture written with the samples taken so far.\n"
+    "129 by SIGHUP, 143 by SIGTERM, 152 by SIGXCPU: the picture is written with the samples taken "
+    "so far.\n"
     "\n"
     "Environment: OCL_ICD_VENDORS, which OpenCL drivers are seen; POCL_MAX_PTHREAD_COUNT, the "
     "cores\n"
@@ -41,6 +49,13 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (what.starts_with(unconverted)) what = what.substr(unconverted.size()) + ": not a number";
     spdlog::error("{}; see wavepath {}--help", what, command);
     return exit_failure;
+}
+
+// A file opened in place of a closed standard stream would receive what is said there. In the wrong
+// direction, so that reading and writing fail as they would have.
+void occupy_standard_streams() {
+    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(fd, F_GETFD) < 0) open("/dev/null", (fd == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
 int run(int argc, char** argv) {
@@ -72,10 +87,16 @@ int run(int argc, char** argv) {
             spdlog::error("no command given: render, profile or devices; see wavepath --help");
             return exit_failure;
         }
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            throw wavepath::Error(
+                "standard output: cannot be written: {}; what was printed is not whole",
+                std::strerror(errno));
     } catch (const CLI::ParseError& error) {
         return usage_error(app, error);
-    } catch (const wavepath::Interrupted&) {
-        return exit_interrupted;
+    } catch (const wavepath::Interrupted& interrupted) {
+        return exit_signalled + interrupted.signal;
+    } catch (const wavepath::OutputFailed&) {
+        return exit_failure;
     } catch (const cl::Error& error) {
         spdlog::error(
             "OpenCL: {} failed with code {}; `wavepath devices` tells what this device can do",
@@ -91,6 +112,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    occupy_standard_streams();
     try {
         return run(argc, argv);
     } catch (const std::exception& error) {  // before there is a logger, or of the logger

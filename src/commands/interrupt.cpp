@@ -1,8 +1,9 @@
 #include "commands/interrupt.h"
 
+#include <signal.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <cerrno>
 #include <ctime>
 #include <string_view>
 
@@ -10,7 +11,9 @@ namespace wavepath {
 
 namespace {
 
-volatile std::sig_atomic_t interrupt_requested = 0;
+volatile sig_atomic_t first_signal = 0;
+
+constexpr int stopping_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE, SIGXFSZ};
 
 double seconds_now() {
     timespec now{};
@@ -22,33 +25,55 @@ double seconds_now() {
 constexpr double same_interrupt_s = 0.3;
 double first_interrupt_s = 0;
 
-void on_interrupt(int) {
-    if (interrupt_requested != 0) {
-        if (seconds_now() - first_interrupt_s < same_interrupt_s) return;
-        std::signal(SIGINT, SIG_DFL);
-        std::raise(SIGINT);
+// What this process' own write(2) raises: a reader is gone or a file is too large, which its
+// caller is told as well.
+bool is_of_own_write(int signal, const siginfo_t& info) {
+    return (signal == SIGPIPE || signal == SIGXFSZ) && info.si_pid == getpid();
+}
+
+void on_signal(int signal, siginfo_t* info, void*) {
+    if (is_of_own_write(signal, *info)) return;
+    if (first_signal != 0) {
+        // A hangup comes from the terminal and from its shell, SIGXCPU every second.
+        if (signal != SIGINT || seconds_now() - first_interrupt_s < same_interrupt_s) return;
+        ::signal(SIGINT, SIG_DFL);
+        raise(SIGINT);
         return;
     }
-    interrupt_requested = 1;
+    first_signal = signal;
     first_interrupt_s = seconds_now();
     constexpr std::string_view words =
         "\nstopping after this pass; Ctrl-C again ends at once, without a picture\n";
+    const int error = errno;  // of whatever was interrupted
     [[maybe_unused]] const auto written = write(STDERR_FILENO, words.data(), words.size());
+    errno = error;
 }
 
 }  // namespace
 
+int interrupt_signal() {
+    return first_signal;
+}
+
+void survive_failed_writes() {
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
 InterruptGuard::InterruptGuard() {
-    interrupt_requested = 0;
-    std::signal(SIGINT, on_interrupt);
+    first_signal = 0;
+    struct sigaction action {};
+    action.sa_sigaction = on_signal;
+    action.sa_flags = SA_SIGINFO | SA_RESTART;
+    struct sigaction before {};
+    for (const int signal : stopping_signals) {
+        sigaction(signal, &action, &before);
+        if (signal == SIGHUP && before.sa_handler == SIG_IGN) sigaction(signal, &before, nullptr);
+    }
 }
 
 InterruptGuard::~InterruptGuard() {
-    std::signal(SIGINT, SIG_IGN);
-}
-
-bool InterruptGuard::requested() const {
-    return interrupt_requested != 0;
+    for (const int signal : stopping_signals) ::signal(signal, SIG_IGN);
 }
 
 }  // namespace wavepath

@@ -1,14 +1,24 @@
-// Ctrl-C as a request to stop after the current pass.
+// Signals as a request to stop after the current pass, so that none of them loses a picture.
 #pragma once
 
 namespace wavepath {
 
-// Thrown when what there is has been written; main answers with exit status 130.
-struct Interrupted {};
+// Thrown when what there is has been written; main answers with exit status 128 + signal.
+struct Interrupted {
+    int signal;
+};
 
-// While it lives, SIGINT sets a flag; a second SIGINT ends the process at once. After it, SIGINT
-// does nothing: what remains is to write the pictures, which takes a moment and must not be cut
-// short.
+// The signal that asked the last InterruptGuard to stop; 0: none did.
+int interrupt_signal();
+
+// Writing to a pipe that nobody reads or beyond the limit on file sizes fails from now on, where
+// SIGPIPE and SIGXFSZ ended the process.
+void survive_failed_writes();
+
+// While it lives SIGINT, SIGTERM, SIGHUP and SIGXCPU set a flag, and so do a SIGPIPE and a SIGXFSZ
+// that come from elsewhere; a second Ctrl-C ends the process at once. SIGHUP stays ignored under
+// nohup. After it these signals do nothing: what remains is to write the pictures, which takes a
+// moment and must not be cut short.
 class InterruptGuard {
   public:
     InterruptGuard();
@@ -16,7 +26,7 @@ class InterruptGuard {
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-    bool requested() const;
+    bool requested() const { return interrupt_signal() != 0; }
 };
 
 }  // namespace wavepath

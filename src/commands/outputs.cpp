@@ -101,20 +101,34 @@ void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inpu
 void write_outputs(
     const Device& device, const RenderJob& job, RenderResult& result, const Outputs& outputs) {
     result.film.image.metadata = metadata(device, job, result);
-    for (const auto& path : outputs.images) {
-        if (path.extension() == ".exr")
-            write_exr(result.film.image, path);
-        else
-            write_png(result.film.image, path, outputs.exposure);
-        spdlog::info(
-            "wrote {}: {} samples a pixel in {:.2f} s, relative error {}", path.string(),
-            result.samples, result.times.render, relative_error_text(result.film.relative_error));
-    }
+    bool failed = false;
+    const auto attempt = [&](const auto& write) {
+        try {
+            write();
+        } catch (const std::exception& error) {
+            spdlog::error("{}", error.what());
+            failed = true;
+        }
+    };
+    for (const auto& path : outputs.images)
+        attempt([&] {
+            if (path.extension() == ".exr")
+                write_exr(result.film.image, path);
+            else
+                write_png(result.film.image, path, outputs.exposure);
+            spdlog::info(
+                "wrote {}: {} samples a pixel in {:.2f} s, relative error {}", path.string(),
+                result.samples, result.times.render,
+                relative_error_text(result.film.relative_error));
+        });
     if (!outputs.json.empty())
-        AtomicFile(outputs.json).commit(text_of(render_report(device, job, result), 2) + "\n");
-    if (!result.interrupted) return;
-    spdlog::warn("interrupted: there are {} samples a pixel", result.samples);
-    throw Interrupted();
+        attempt([&] {
+            AtomicFile(outputs.json).commit(text_of(render_report(device, job, result), 2) + "\n");
+        });
+    if (result.interrupted)
+        spdlog::warn("interrupted: there are {} samples a pixel", result.samples);
+    if (failed) throw OutputFailed();
+    if (result.interrupted) throw Interrupted{interrupt_signal()};
 }
 
 }  // namespace wavepath

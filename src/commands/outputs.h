@@ -5,6 +5,9 @@
 
 namespace wavepath {
 
+// Thrown when the reasons have been said; main answers with exit status 1.
+struct OutputFailed {};
+
 struct Outputs {
     std::vector<std::filesystem::path> images;
     double exposure = 0;  // [stops] of PNG
@@ -21,7 +24,8 @@ void check_outputs(const Outputs& outputs);
 // Throws Error for an output that is one of the inputs, or that is named twice.
 void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inputs);
 
-// Throws Interrupted at the end if Ctrl-C stopped the render.
+// Writes what can be written and says in a line each what cannot. Throws OutputFailed at the end if
+// there was any such, else Interrupted if a signal stopped the render.
 void write_outputs(
     const Device& device, const RenderJob& job, RenderResult& result, const Outputs& outputs);
 

@@ -1,5 +1,6 @@
 #include "commands/profile.h"
 
+#include "commands/interrupt.h"
 #include "commands/outputs.h"
 #include "commands/run_job.h"
 
@@ -9,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <system_error>
 
 namespace wavepath {
 
@@ -56,14 +58,7 @@ void print_rays(const RenderResult& result) {
             result.times.render);
 }
 
-void run(const RenderOptions& options, const Outputs& outputs) {
-    if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
-    check_outputs(outputs);
-    check_apart(outputs, {options.scene, options.environment});
-    const Device device = open_device(options.device);
-    const RenderJob job = prepare_job(options);
-    check_apart(outputs, job.scene.files);
-    RenderResult result = run_job(device, job, outputs.quiet);
+void print_profile(const Device& device, const RenderJob& job, const RenderResult& result) {
     const double samples =
         static_cast<double>(result.samples) * job.settings.width * job.settings.height;
     fmt::print(
@@ -87,6 +82,22 @@ void run(const RenderOptions& options, const Outputs& outputs) {
         static_cast<double>(result.scene_bytes) / static_cast<double>(result.triangles),
         static_cast<double>(result.pool_bytes) / 1048576.0,
         static_cast<double>(result.film_bytes) / 1048576.0);
+}
+
+void run(const RenderOptions& options, const Outputs& outputs) {
+    survive_failed_writes();
+    if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
+    check_outputs(outputs);
+    check_apart(outputs, {options.scene, options.environment});
+    const Device device = open_device(options.device);
+    const RenderJob job = prepare_job(options);
+    check_apart(outputs, job.scene.files);
+    RenderResult result = run_job(device, job, outputs.quiet);
+    try {
+        print_profile(device, job, result);
+    } catch (const std::system_error&) {
+        // The pictures come first; that standard output failed is main's to say.
+    }
     write_outputs(device, job, result, outputs);
 }
 

@@ -18,7 +18,9 @@ Progress::Progress(const RenderSettings& settings, bool quiet)
 void Progress::show(const RenderProgress& state) {
     if (quiet_ || state.seconds < next_) return;
     next_ = state.seconds + (terminal_ ? 0.5 : 10);
-    fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line(state), terminal_ ? "" : "\n");
+    // not fmt::print, which throws where nobody listens
+    std::fputs(
+        ((terminal_ ? "\r\033[K" : "") + line(state) + (terminal_ ? "" : "\n")).c_str(), stderr);
     std::fflush(stderr);
     shown_ = true;
 }
@@ -28,7 +30,7 @@ std::string relative_error_text(double relative_error) {
 }
 
 void Progress::finish() {
-    if (shown_ && terminal_) fmt::print(stderr, "\n");
+    if (shown_ && terminal_) std::fputs("\n", stderr);
 }
 
 std::string Progress::line(const RenderProgress& state) const {

@@ -1,5 +1,6 @@
 #include "commands/render.h"
 
+#include "commands/interrupt.h"
 #include "commands/outputs.h"
 #include "commands/run_job.h"
 
@@ -13,6 +14,7 @@ namespace wavepath {
 namespace {
 
 void run(const RenderOptions& options, const Outputs& outputs) {
+    survive_failed_writes();
     if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
     check_outputs(outputs);
     check_apart(outputs, {options.scene, options.environment});

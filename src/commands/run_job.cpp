@@ -22,7 +22,7 @@ RenderResult run_job(const Device& device, const RenderJob& job, bool quiet) {
     progress.finish();
     if (result.samples == 0) {
         spdlog::warn("interrupted before every pixel had a sample: nothing is written");
-        throw Interrupted();
+        throw Interrupted{interrupt_signal()};
     }
     for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
     const std::vector<std::string>& ignored = job.scene.ignored;  // said before the render
