@@ -4,7 +4,7 @@
 #   scripts/setup.sh demo    what it takes to build and run wavepath
 #   scripts/setup.sh test    also what it takes to build and run all tests
 #
-# Debian 12 and Ubuntu 24.04. Needs root only where something is missing: sudo where not root.
+# Debian 12 and 13. Needs root only where something is missing: sudo where not root.
 set -euo pipefail
 
 fail() {
@@ -80,5 +80,5 @@ install=("${missing[@]}" "${available_checkers[@]}")
 
 echo "setup: installing ${install[*]}"
 apt install -y --no-install-recommends "${install[@]}" ||
-    fail "apt-get could not install them (no network, or a package source is off: Ubuntu needs 'universe'): $(last_error)"
+    fail "apt-get could not install them (no network, or a package source is off): $(last_error)"
 echo "setup: done"
