@@ -57,8 +57,13 @@ kernel void roulette_compact(
     if (HAS_MEDIA) survival = primitive == HIT_BOUNDARY ? 1.0f : survival;
     const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
     const uint dimension = PAIR_FIRST + scattering * SCATTERING_PAIRS + PAIR_ROULETTE;
+    // chosen, because LLVM 18's SLP pass joins this hash with that of the index: nothing is
+    // vectorised
     const uint seed =
-        hash_pair(PLANE(ids, ID_SEED)[slot], HAS_SPLITS ? hash_pair(dimension, branch) : dimension);
+        params.roulette == 0
+            ? 0u
+            : hash_pair(
+                  PLANE(ids, ID_SEED)[slot], HAS_SPLITS ? hash_pair(dimension, branch) : dimension);
     const float u = unit_float(hash_pair(seed, PLANE(ids, ID_INDEX)[slot]));
     // a NaN throughput survives, to be found and counted at the end of the path
     const int over = HAS_MEDIA ? (primitive == HIT_MISS) | (primitive == HIT_ENDED) : primitive < 0;
