@@ -68,7 +68,8 @@ INLINE void go_on_behind(
 INLINE float refractive_index(global const DeviceMedium* media, const uint stack) {
     if (!HAS_MATCHED_MEDIA) {
         const uint innermost = innermost_medium(stack);
-        return innermost > 0 ? media[(int)max(innermost, 1u) - 1].ior : 1.0f;
+        const float ior = media[(int)max(innermost, 1u) - 1].ior;
+        return innermost > 0 ? ior : 1.0f;
     }
     float index = 1.0f;
     for (uint shift = 32; shift > 0; shift -= 8) {

@@ -47,6 +47,21 @@ INLINE int has_ray(global const float* hits, const size_t stride, const size_t s
     return !(HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f);
 }
 
+// What lies behind a hit: `next`, or what a ray finds where that is not known, 0.
+INLINE Hit hit_behind(
+    const Hit* hit,
+    const Hit* next,
+    global const BvhNode* nodes,
+    global const TriangleBlock* blocks,
+    const Vec3 origin,
+    const Vec3 direction,
+    const Cover* cover) {
+    if (next) return *next;
+    return closest_hit(
+        nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
+        INFINITY, ray_start(hit->t, hit->primitive), holes_in(cover));
+}
+
 // Stores the hit, or what lies behind the boundaries that the ray passes at once. `next`: what lies
 // behind the hit, or 0 if that is not known.
 INLINE void pass_clear_boundaries(
@@ -70,19 +85,15 @@ INLINE void pass_clear_boundaries(
         if (medium == 0) break;
         global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * hit.primitive;
         const uint crossed = cross_boundary(stack, medium, triangle, direction);
-        if (stack != 0 && (crossed != 0 || HAS_SPLITS)) break;
-        Hit behind;
-        if (next)
-            behind = *next;
-        else
-            behind = closest_hit(
-                nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-                INFINITY, ray_start(hit.t, hit.primitive), holes_in(cover));
-        next = 0;
+        // Two calls, since LLVM 18 as PoCL 6.0 runs it gives up on one that both cases share.
         if (stack != 0) {
+            if (crossed != 0 || HAS_SPLITS) break;
+            const Hit behind = hit_behind(&hit, next, nodes, blocks, origin, direction, cover);
             if (behind.primitive < 0) hit.primitive = HIT_LEAVING;
             break;
         }
+        const Hit behind = hit_behind(&hit, next, nodes, blocks, origin, direction, cover);
+        next = 0;
         go_on_behind(
             path_media, stride, slot, stack, crossed, hit.t, hit.primitive,
             touching_distance(triangle, direction));
