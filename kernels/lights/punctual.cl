@@ -20,9 +20,10 @@ INLINE LightSample punctual_sample(global const DeviceLight* light, const Vec3 f
     s.p = madd3(from, s.wi, directional ? OUTSIDE_SCENE : distance);
 
     // angular falloff of a spot, and the window that ends a range (both as the extension
-    // recommends)
+    // recommends). 1 - cos, half the square of the chord, keeps the digits of narrow cones.
+    const Vec3 chord = add3(s.wi, shines);
     const float cone =
-        clamp(fma(-dot3(s.wi, shines), light->spot_scale, light->spot_offset), 0.0f, 1.0f);
+        clamp(fma(-0.5f, dot3(chord, chord), light->spot_outer) * light->spot_scale, 0.0f, 1.0f);
     const float reach = light->range > 0.0f ? distance / light->range : 0.0f;
     const float reach4 = reach * reach * reach * reach;
     const float window = clamp(1.0f - reach4, 0.0f, 1.0f);

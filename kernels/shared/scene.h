@@ -73,8 +73,8 @@ typedef struct {
     shared_uint primitive;    // LIGHT_TRIANGLE: its triangle
     shared_float area;        // LIGHT_TRIANGLE: [normalised^2]
     shared_float range;       // LIGHT_POINT: [normalised] 0: unlimited
-    shared_float spot_scale;  // LIGHT_POINT: falloff = saturate(cos * scale + offset)^2
-    shared_float spot_offset;
+    shared_float spot_outer;  // LIGHT_POINT: falloff = saturate((outer - (1 - cos)) * scale)^2
+    shared_float spot_scale;
     shared_uint double_sided;  // LIGHT_TRIANGLE: emits from both faces
     shared_float intensity_r;  // LIGHT_TRIANGLE: radiance; LIGHT_POINT: [W/sr] in units of the
                                // normalised scene; LIGHT_DIRECTIONAL: [W/m^2]

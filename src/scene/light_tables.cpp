@@ -28,16 +28,23 @@ double triangle_area(const std::vector<float>& positions, std::size_t triangle) 
                u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
 }
 
+// 1 - cos, right for narrow cones.
+double versine(double angle) {
+    return 2 * std::sin(0.5 * angle) * std::sin(0.5 * angle);
+}
+
 DeviceLight punctual_light(const PunctualLight& light) {
     DeviceLight d{};
     d.kind = light.kind == LightKind::directional ? LIGHT_DIRECTIONAL : LIGHT_POINT;
     d.range = static_cast<float>(light.range);
-    d.spot_offset = 1;
+    d.spot_outer = 3;  // 1 - cos is at most 2: everywhere
+    d.spot_scale = 1;
     if (light.kind == LightKind::spot) {
-        const double inner = std::cos(light.inner_cone);
-        const double outer = std::cos(light.outer_cone);
-        d.spot_scale = static_cast<float>(1 / std::max(1e-3, inner - outer));
-        d.spot_offset = static_cast<float>(-outer) * d.spot_scale;
+        constexpr double steepest = 1e30;  // of a hard edge
+        const double outer = versine(light.outer_cone);
+        const double edge = outer - versine(light.inner_cone);
+        d.spot_outer = static_cast<float>(outer);
+        d.spot_scale = static_cast<float>(1 / std::max(edge, 1 / steepest));
     }
     d.direction_x = static_cast<float>(light.direction[0]);
     d.direction_y = static_cast<float>(light.direction[1]);
@@ -56,8 +63,7 @@ double punctual_power(const PunctualLight& light) {
         case LightKind::point:
             return 4 * std::numbers::pi * luminance(light.intensity);
         case LightKind::spot:
-            return 2 * std::numbers::pi *
-                   (1 - 0.5 * (std::cos(light.inner_cone) + std::cos(light.outer_cone))) *
+            return std::numbers::pi * (versine(light.inner_cone) + versine(light.outer_cone)) *
                    luminance(light.intensity);
         case LightKind::directional:
             return std::numbers::pi * scene_radius * scene_radius * luminance(light.intensity);

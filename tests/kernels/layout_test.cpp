@@ -44,7 +44,7 @@ namespace {
     STRUCT(DeviceLight)                                                                           \
     FIELD(DeviceLight, alias_threshold) FIELD(DeviceLight, alias) FIELD(DeviceLight, pmf)         \
     FIELD(DeviceLight, kind) FIELD(DeviceLight, primitive) FIELD(DeviceLight, area)               \
-    FIELD(DeviceLight, range) FIELD(DeviceLight, spot_scale) FIELD(DeviceLight, spot_offset)      \
+    FIELD(DeviceLight, range) FIELD(DeviceLight, spot_outer) FIELD(DeviceLight, spot_scale)      \
     FIELD(DeviceLight, double_sided) FIELD(DeviceLight, intensity_r)                              \
     FIELD(DeviceLight, position_x) FIELD(DeviceLight, direction_x)                                \
     FIELD(DeviceLight, intensity_g) FIELD(DeviceLight, position_y)                                \

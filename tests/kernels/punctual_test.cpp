@@ -32,7 +32,8 @@ DeviceLight light_of(cl_uint kind) {
     DeviceLight light{};
     light.kind = kind;
     light.pmf = 0.25F;
-    light.spot_offset = 1;
+    light.spot_outer = 3;
+    light.spot_scale = 1;
     light.position_z = 0.5F;
     light.direction_z = -1;
     light.intensity_r = 1;
@@ -82,8 +83,8 @@ TEST(Punctual, SpotFallsOffBetweenItsCones) {
     DeviceLight light = light_of(LIGHT_POINT);
     const double inner = std::cos(0.3);
     const double outer = std::cos(0.6);
+    light.spot_outer = static_cast<float>(1 - outer);
     light.spot_scale = static_cast<float>(1 / (inner - outer));
-    light.spot_offset = -static_cast<float>(outer / (inner - outer));
     for (const double angle : {0.0, 0.2, 0.29, 0.4, 0.5, 0.59, 0.61, 1.2}) {
         const double x = 0.5 * std::tan(angle);
         const double cone = std::fmin(1, std::fmax(0, (std::cos(angle) - outer) / (inner - outer)));
