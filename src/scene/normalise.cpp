@@ -1,6 +1,7 @@
 #include "scene/normalise.h"
 
 #include "error.h"
+#include "scene/corner_normals.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -91,6 +92,22 @@ Vec3d transform_direction(const Matrix4& m, const Vec3d& d) {
     return normalized(r);
 }
 
+// `face`: the normal of a triangle without vertex normals, normalised or not.
+void append_normals(
+    NormalisedScene& out,
+    const Primitive& primitive,
+    const Matrix4& to_world,
+    const Vec3d& face,
+    const std::array<Corner, 3>& corners) {
+    if (primitive.normals.empty()) {
+        for (std::size_t c = 0; c < 3; ++c) append(out.normals, normalized(face));
+        return;
+    }
+    const std::array<Vec3d, 3> normals = corner_normals(primitive, corners[0].place / 3);
+    for (const Corner& corner : corners)
+        append(out.normals, transform_normal(to_world, normals[corner.place % 3]));
+}
+
 // A mirroring node turns bitangents round against normals and tangents.
 void append_tangents(
     NormalisedScene& out,
@@ -133,13 +150,7 @@ void append_instance(
         }
         for (const Vec3d& corner : p) append(out.positions, corner);
         out.materials.push_back(primitive.material);
-        if (attributes.normals)
-            for (const Corner& c : corners)
-                append(
-                    out.normals,
-                    primitive.normals.empty()
-                        ? normalized(face)
-                        : transform_normal(to_world, vec3_at(primitive.normals, c.vertex)));
+        if (attributes.normals) append_normals(out, primitive, to_world, face, corners);
         if (attributes.colors) append_floats(out.colors, primitive.colors, 3, corners, 1);
         for (std::size_t k = 0; k < 2; ++k)
             if (attributes.uvs[k]) append_floats(out.uvs[k], primitive.uvs[k], 2, corners, 0);
@@ -155,6 +166,31 @@ PunctualLight normalised_light(const NormalisedScene& space, PunctualLight light
         for (float& channel : light.intensity)
             channel = static_cast<float>(channel / (space.extent.metres * space.extent.metres));
     return light;
+}
+
+// Why no triangle of the scene counts.
+std::string without_area(const Scene& scene, const Extent& extent) {
+    const bool has_area = std::ranges::any_of(scene.primitives, [](const Primitive& primitive) {
+        for (std::size_t t = 0; t + 2 < primitive.indices.size(); t += 3)
+            if (face_cross(
+                    {vec3_at(primitive.positions, primitive.indices[t]),
+                     vec3_at(primitive.positions, primitive.indices[t + 1]),
+                     vec3_at(primitive.positions, primitive.indices[t + 2])}) != Vec3d{0, 0, 0})
+                return true;
+        return false;
+    });
+    const double distance = std::sqrt(dot(extent.centre, extent.centre));
+    if (distance > 0x1p20 * extent.metres)
+        return fmt::format(
+            "every triangle is too small for its distance from the origin, {:.3g} m; move the "
+            "scene there",
+            distance);
+    if (has_area)
+        return fmt::format(
+            "every triangle is too small for the scene's extent of {:.3g} m; remove what lies far "
+            "away",
+            extent.metres);
+    return "every triangle has zero area; there is nothing to render";
 }
 
 }  // namespace
@@ -190,8 +226,7 @@ NormalisedScene normalise(const Scene& scene) {
         append_instance(out, scene.primitives[instance.primitive], instance.to_world, attributes);
         out.ends.push_back(static_cast<uint32_t>(out.triangle_count()));
     }
-    if (out.materials.empty())
-        throw Error("{}: every triangle has zero area; there is nothing to render", scene.name);
+    if (out.materials.empty()) throw Error("{}: {}", scene.name, without_area(scene, out.extent));
     for (const PunctualLight& light : scene.lights)
         out.lights.push_back(normalised_light(out, light));
     return out;

@@ -1,5 +1,6 @@
 #include "scene/tangents.h"
 
+#include "scene/corner_normals.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -56,10 +57,11 @@ Face face_at(const Primitive& primitive, const std::vector<float>& uvs, std::siz
         add_scaled(face.along_u, e1, v2 / area);
         add_scaled(face.along_u, e2, -v1 / area);
     }
-    const Vec3d flat = normalized(cross(e1, e2));
+    if (primitive.normals.empty())
+        face.normals.fill(normalized(cross(e1, e2)));
+    else
+        face.normals = corner_normals(primitive, triangle);
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t vertex = primitive.indices[3 * triangle + c];
-        face.normals[c] = primitive.normals.empty() ? flat : vec3_at(primitive.normals, vertex);
         for (std::size_t k = 0; k < 3; ++k) {
             face.keys[c][k] = static_cast<float>(face.corners[c][k]);
             face.keys[c][3 + k] = static_cast<float>(face.normals[c][k]);
