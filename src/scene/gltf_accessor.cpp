@@ -224,7 +224,11 @@ std::span<const unsigned char> buffer_bytes(
     std::size_t offset,
     std::size_t length,
     std::string_view where) {
-    const auto& data = file.at(file.model.buffers, buffer, "buffer", where).data;
+    const tinygltf::Buffer& source = file.at(file.model.buffers, buffer, "buffer", where);
+    const auto& data = source.data;
+    const auto index = static_cast<std::size_t>(buffer);
+    if (index < file.missing_data.size() && !file.missing_data[index].empty())
+        file.fail(label("buffer", buffer, source.name), "{}", file.missing_data[index]);
     if (offset > data.size() || length > data.size() - offset)
         file.fail(
             where,

@@ -8,8 +8,7 @@
 namespace wavepath {
 namespace {
 
-// Magic, version, length; length and type of the JSON chunk.
-constexpr std::size_t glb_header_size = 20;
+constexpr std::size_t glb_header_size = 12;  // magic, version, length
 
 std::uint32_t word_at(std::span<const unsigned char> bytes, std::size_t offset) {
     std::uint32_t word = 0;
@@ -17,32 +16,46 @@ std::uint32_t word_at(std::span<const unsigned char> bytes, std::size_t offset) 
     return word;
 }
 
+std::string_view as_text(std::span<const unsigned char> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// The chunks of a binary file without its header: length, type, data.
+GltfContainer open_chunks(std::span<const unsigned char> chunks, const std::string& name) {
+    GltfContainer container;
+    for (bool is_first = true; chunks.size() >= 8; is_first = false) {
+        const std::size_t size = word_at(chunks, 0);
+        const std::string_view type = as_text(chunks.subspan(4, 4));
+        chunks = chunks.subspan(8);
+        if (size > chunks.size())
+            throw Error("{}: is cut short or gives a wrong length; copy or export it again", name);
+        if (size % 4 != 0)
+            throw Error(
+                "{}: a chunk of {} bytes is not padded to a multiple of 4; export again", name,
+                size);
+        if (is_first != (type == "JSON"))
+            throw Error("{}: its first chunk has to hold JSON, and no other; export again", name);
+        if (is_first) container.json = as_text(chunks.first(size));
+        if (type == std::string_view("BIN\0", 4) && !container.chunk)
+            container.chunk = chunks.first(size);
+        chunks = chunks.subspan(size);
+    }
+    return container;
+}
+
 }  // namespace
 
-bool is_binary(std::span<const unsigned char> bytes) {
-    return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
-}
-
-void check_glb_header(std::span<const unsigned char> bytes, const std::string& name) {
+GltfContainer open_container(std::span<const unsigned char> bytes, const std::string& name) {
+    if (!as_text(bytes).starts_with("glTF")) return {as_text(bytes), std::nullopt};
     if (bytes.size() >= 8 && word_at(bytes, 4) != 2)
         throw Error("{}: is binary glTF version {}; export as glTF 2.0", name, word_at(bytes, 4));
-    bool is_whole = bytes.size() >= glb_header_size && word_at(bytes, 8) >= glb_header_size &&
-                    bytes.size() >= word_at(bytes, 8);
-    // chunks: length, type, data
-    for (std::size_t at = 12; is_whole && at + 8 <= word_at(bytes, 8);
-         at += 8 + std::size_t{word_at(bytes, at)})
-        is_whole = word_at(bytes, at) <= word_at(bytes, 8) - at - 8;
-    if (!is_whole)
+    constexpr std::size_t smallest = glb_header_size + 8;
+    if (bytes.size() < smallest || word_at(bytes, 8) < smallest || bytes.size() < word_at(bytes, 8))
         throw Error("{}: is cut short or gives a wrong length; copy or export it again", name);
+    return open_chunks(bytes.subspan(glb_header_size, word_at(bytes, 8) - glb_header_size), name);
 }
 
-std::string_view json_text(std::span<const unsigned char> bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    return is_binary(bytes) ? text.substr(glb_header_size, word_at(bytes, 12)) : text;
-}
-
-bool starts_like_json(std::span<const unsigned char> bytes) {
-    const std::string_view text = json_text(bytes);
+bool starts_like_json(std::string_view text) {
     const std::size_t start =
         text.find_first_not_of("\xEF\xBB\xBF \t\r\n");  // after a byte order mark
     return start != text.npos && text[start] == '{';
@@ -65,20 +78,6 @@ bool is_nested_deeper_than(std::string_view json, int limit) {
         }
     }
     return false;
-}
-
-std::vector<unsigned char> with_json(std::span<const unsigned char> bytes, std::string_view json) {
-    if (!is_binary(bytes)) return {json.begin(), json.end()};
-    const auto chunks = bytes.subspan(glb_header_size + word_at(bytes, 12));
-    std::vector<unsigned char> file(bytes.begin(), bytes.begin() + glb_header_size);
-    file.insert(file.end(), json.begin(), json.end());
-    file.resize((file.size() + 3) / 4 * 4, ' ');  // header and chunks are multiples of 4
-    const auto json_size = static_cast<std::uint32_t>(file.size() - glb_header_size);
-    file.insert(file.end(), chunks.begin(), chunks.end());
-    const auto size = static_cast<std::uint32_t>(file.size());
-    std::memcpy(&file[8], &size, sizeof size);
-    std::memcpy(&file[12], &json_size, sizeof json_size);
-    return file;
 }
 
 }  // namespace wavepath

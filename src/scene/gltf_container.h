@@ -1,28 +1,26 @@
-// The two containers of glTF, .gltf and .glb, told apart by their first bytes, and the JSON in
-// them.
+// The two containers of glTF, .gltf and .glb, told apart by their first bytes.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace wavepath {
 
-bool is_binary(std::span<const unsigned char> bytes);
+struct GltfContainer {
+    std::string_view json;
+    std::optional<std::span<const unsigned char>> chunk;  // BIN of a binary file that has one
+};
 
-// Throws Error for a binary file of another version, or whose lengths are wrong: tinygltf has one
-// text for all of that. `name` is the file's, for messages.
-void check_glb_header(std::span<const unsigned char> bytes, const std::string& name);
+// What a file of these bytes holds; it refers to them. Chunks of other types are passed over [glTF
+// 2.0, section 4.4.3]. Throws Error for a binary file of another version, or whose lengths are
+// wrong. `name` is the file's, for messages.
+GltfContainer open_container(std::span<const unsigned char> bytes, const std::string& name);
 
-// Of a binary file: one that check_glb_header has passed.
-std::string_view json_text(std::span<const unsigned char> bytes);
-bool starts_like_json(std::span<const unsigned char> bytes);
+bool starts_like_json(std::string_view text);
 
-// tinygltf turns nesting in `extras` into recursion: 100 kB of brackets would overflow the stack.
+// 100 kB of brackets would overflow the stack of a parser that recurs.
 bool is_nested_deeper_than(std::string_view json, int limit);
-
-// The file with other JSON.
-std::vector<unsigned char> with_json(std::span<const unsigned char> bytes, std::string_view json);
 
 }  // namespace wavepath

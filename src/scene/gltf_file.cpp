@@ -1,11 +1,12 @@
 #include "scene/gltf_file.h"
 
 #include "scene/gltf_container.h"
+#include "scene/gltf_data.h"
 #include "scene/gltf_draco.h"
-#include "scene/gltf_malformed.h"
 #include "scene/gltf_meshopt.h"
 #include "scene/gltf_placeholders.h"
-#include "scene/gltf_unresolved.h"
+#include "scene/gltf_schema.h"
+#include "scene/json_member.h"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +21,7 @@ namespace wavepath {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 // Sorted.
 constexpr auto supported_extensions = std::to_array<std::string_view>({
@@ -42,6 +44,26 @@ constexpr auto supported_extensions = std::to_array<std::string_view>({
     "KHR_texture_transform",
 });
 
+// What these say shows in no still picture. Sorted.
+constexpr auto extensions_without_effect = std::to_array<std::string_view>({
+    "AGI_stk_metadata",         // sensors and solar panels, for a simulation
+    "EXT_instance_features",    // numbers of features of instances
+    "EXT_mesh_features",        // numbers of features of vertices and texels
+    "EXT_mesh_manifold",        // which edges of a mesh meet
+    "EXT_structural_metadata",  // tables of features' properties
+    "FB_geometry_metadata",     // bounds and counts of a scene
+    "GODOT_single_root",        // how to import the nodes
+    "GRIFFEL_bim_data",         // properties of building parts
+    "KHR_animation_pointer",    // what animations move: rendered at rest
+    "KHR_interactivity",        // what happens when a user acts
+    "KHR_node_hoverability",    // which nodes a pointer meets
+    "KHR_node_selectability",   // which nodes a user may select
+    "KHR_xmp",                  // authors, rights, history
+    "KHR_xmp_json_ld",          // the same
+    "MAXAR_image_ortho",        // how images lie on the earth
+    "MSFT_lod",                 // coarser stand-ins for nodes and materials
+});
+
 std::vector<unsigned char> read_bytes(const fs::path& path) {
     std::error_code status;
     if (!fs::exists(path, status)) throw Error("{}: no such file; check the path", path.string());
@@ -55,99 +77,42 @@ std::vector<unsigned char> read_bytes(const fs::path& path) {
     return bytes;
 }
 
-// tinygltf looks in the working directory too, as "./name": what is rendered must not depend on it.
-bool is_file_beside_scene(const std::string& path, void*) {
-    std::error_code status;
-    return fs::path(path).is_absolute() && fs::is_regular_file(path, status);
-}
-
-// Notes the file in a std::vector<fs::path>.
-bool read_and_note(
-    std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void* files) {
-    static_cast<std::vector<fs::path>*>(files)->emplace_back(path);
-    return tinygltf::ReadWholeFile(bytes, error, path, nullptr);
-}
-
-[[maybe_unused]] bool measure(
-    std::size_t* bytes, std::string* error, const std::string& path, void*) {
-    std::error_code status;
-    *bytes = fs::file_size(path, status);
-    if (status) *error += fmt::format("{}: {}\n", path, status.message());
-    return !status;
-}
-
-// How tinygltf gets at files; those it reads are noted in `files`. From 2.9 on it asks for their
-// size as well, and takes all callbacks or none.
-template <typename Callbacks = tinygltf::FsCallbacks>
-Callbacks access_noted_in(std::vector<fs::path>& files) {
-    Callbacks access{};
-    access.FileExists = is_file_beside_scene;
-    access.ExpandFilePath = tinygltf::ExpandFilePath;
-    access.ReadWholeFile = read_and_note;
-    access.WriteWholeFile = tinygltf::WriteWholeFile;
-    if constexpr (requires { access.GetFileSizeInBytes; }) access.GetFileSizeInBytes = measure;
-    access.user_data = &files;
-    return access;
-}
-
-// tinygltf would decode every image while it parses, and fail for one that it cannot decode. Those
-// in buffer views are left there: their range has not been checked yet.
-bool leave_image_encoded(
-    tinygltf::Image* image,
-    int,
-    std::string*,
-    std::string*,
-    int,
-    int,
-    const unsigned char* bytes,
-    int size,
-    void*) {
-    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
-    return true;
-}
-
-// tinygltf takes data URIs of types that it does not know for names of files.
-void decode_data_uris(tinygltf::Model& model) {
-    for (tinygltf::Image& image : model.images) {
-        const std::size_t comma = image.uri.find(',');
-        if (!image.uri.starts_with("data:") || comma == image.uri.npos) continue;
-        const std::string known = "data:application/octet-stream;base64" + image.uri.substr(comma);
-        std::string type;
-        tinygltf::DecodeDataURI(&image.image, type, known, 0, false);
-        image.uri.clear();
+Json parse_json(std::string_view text, const std::string& name) {
+    constexpr int max_nesting = 256;
+    if (!starts_like_json(text))
+        throw Error("{}: is not glTF; export the scene as .gltf or .glb", name);
+    if (is_nested_deeper_than(text, max_nesting))
+        throw Error("{}: JSON is nested deeper than {} levels; export again", name, max_nesting);
+    try {
+        return Json::parse(text);
+    } catch (const Json::exception& exception) {
+        throw Error(
+            "{}: not valid glTF: {}; repair the file or export again", name,
+            one_line(exception.what()));
     }
 }
 
-// glTF does not require these matrices [glTF 2.0, section 5.28], tinygltf does.
-void forgive_skins(std::string& error) {
-    constexpr std::string_view complaint = "'inverseBindMatrices' property is missing in Skin.\n";
-    for (auto at = error.find(complaint); at != error.npos; at = error.find(complaint))
-        error.erase(at, complaint.size());
-}
-
-// What tinygltf holds against the file, also where it claims success; empty: nothing.
-std::string parse(std::span<const unsigned char> bytes, const fs::path& folder, GltfFile& file) {
-    tinygltf::Model& model = file.model;
-    tinygltf::TinyGLTF parser;
-    parser.SetImageLoader(leave_image_encoded, nullptr);
-    parser.SetFsCallbacks(access_noted_in(file.files));
-    const auto size = static_cast<unsigned int>(bytes.size());
+// `root` as tinygltf's model, but for what take_data has put there.
+void parse_model(Json root, GltfFile& file) {
+    const std::vector<int> indices = put_placeholders(root);
+    const std::string text = root.dump();
+    tinygltf::Model model;
     std::string error, warning;
     try {
-        const bool parsed =
-            is_binary(bytes)
-                ? parser.LoadBinaryFromMemory(
-                      &model, &error, &warning, bytes.data(), size, folder.string())
-                : parser.LoadASCIIFromString(
-                      &model, &error, &warning, reinterpret_cast<const char*>(bytes.data()), size,
-                      folder.string());
-        forgive_skins(error);
-        decode_data_uris(model);
+        tinygltf::TinyGLTF parser;
+        const bool parsed = parser.LoadASCIIFromString(
+            &model, &error, &warning, text.c_str(), static_cast<unsigned int>(text.size()), "");
         if (!parsed && error.empty()) error = "it cannot be parsed";
     } catch (const std::exception& exception) {
         error = fmt::format("it cannot be parsed ({})", exception.what());
     }
-    return error;
+    if (!error.empty())  // also where it claims success
+        throw Error(
+            "{}: not valid glTF: {}; repair the file or export again", file.name, one_line(error));
+    put_indices_back(indices, model);
+    model.buffers = std::move(file.model.buffers);
+    model.images = std::move(file.model.images);
+    file.model = std::move(model);
 }
 
 using Version = std::pair<int, int>;  // major, minor
@@ -163,67 +128,57 @@ std::optional<Version> parse_version(const std::string& text) {
 }
 
 // A newer minor version stays readable unless minVersion says otherwise [glTF 2.0, section 3.2].
-void check_version(const GltfFile& file) {
-    const tinygltf::Asset& asset = file.model.asset;
-    const auto version = parse_version(asset.version);
+void check_version(const Json& root, const GltfFile& file) {
+    const Json& asset = json_member(root, "asset");
+    if (!json_member(asset, "version").is_string()) return;  // is said with the other types
+    const std::string text = json_text(asset, "version");
+    const auto version = parse_version(text);
     if (!version || version->first != 2)
-        file.fail(
-            "asset", "version \"{}\" is not supported; export as glTF 2.0",
-            one_line(asset.version));
-    if (asset.minVersion.empty()) return;
-    const auto needed = parse_version(asset.minVersion);
+        file.fail("asset", "version \"{}\" is not supported; export as glTF 2.0", one_line(text));
+    const std::string least = json_text(asset, "minVersion");
+    if (least.empty()) return;
+    const auto needed = parse_version(least);
     if (!needed || *needed > Version{2, 0})
         file.fail(
             "asset", "minVersion \"{}\" asks for more than glTF 2.0; export as glTF 2.0",
-            one_line(asset.minVersion));
+            one_line(least));
 }
 
-void check_required_extensions(const GltfFile& file) {
-    for (const std::string& extension : file.model.extensionsRequired)
-        if (!is_supported_extension(extension))
+void check_required_extensions(const Json& root, const GltfFile& file) {
+    const Json& required = json_member(root, "extensionsRequired");
+    if (!required.is_array()) return;  // is said with the other types
+    for (const Json& name : required)
+        if (name.is_string() && !is_supported_extension(name.get<std::string>()))
             file.fail(
                 "extensionsRequired", "{} is not supported; export without it",
-                one_line(extension));
+                one_line(name.get<std::string>()));
 }
 
 }  // namespace
 
 GltfFile read_gltf_file(const fs::path& path) {
-    constexpr int max_nesting = 256;
-    std::vector<unsigned char> bytes = read_bytes(path);
-    GltfFile file{path.filename().string(), {}, {}};
+    const std::vector<unsigned char> bytes = read_bytes(path);
+    GltfFile file{path.filename().string(), {}, {}, {}};
     if (bytes.size() > std::numeric_limits<unsigned int>::max())
         throw Error(
             "{}: is larger than 4 GiB; keep buffers in .bin files beside a .gltf", file.name);
-    if (is_binary(bytes)) check_glb_header(bytes, file.name);
-    if (!starts_like_json(bytes))
-        throw Error("{}: is not glTF; export the scene as .gltf or .glb", file.name);
-    if (is_nested_deeper_than(json_text(bytes), max_nesting))
-        throw Error(
-            "{}: JSON is nested deeper than {} levels; export again", file.name, max_nesting);
-
-    if (const auto json = with_placeholders(json_text(bytes), is_binary(bytes)))
-        bytes = with_json(bytes, *json);
-    const std::string error = parse(bytes, fs::absolute(path).parent_path(), file);
-    // Version and extensions are known even after a failure, and often its reason: they go first.
-    check_version(file);
-    check_required_extensions(file);
-    if (!error.empty()) {
-        const bool of_accessor = error.find("accessor") != error.npos;
-        const std::string unresolved = of_accessor ? unresolved_accessor(json_text(bytes)) : "";
-        throw Error(
-            "{}: not valid glTF: {}; repair the file or export again", file.name,
-            one_line(unresolved.empty() ? error : unresolved));
-    }
-    if (const std::string malformed = malformed_material(json_text(bytes)); !malformed.empty())
-        throw Error("{}: {}; repair the file or export again", file.name, malformed);
+    const GltfContainer container = open_container(bytes, file.name);
+    Json root = parse_json(container.json, file.name);
+    // Version and extensions are often the reason of what else is wrong: they go first.
+    check_version(root, file);
+    check_required_extensions(root, file);
+    if (const std::string wrong = put_types_right(root); !wrong.empty())
+        throw Error("{}: {}; repair the file or export again", file.name, wrong);
+    take_data(root, fs::absolute(path).parent_path(), container.chunk, file);
+    parse_model(std::move(root), file);
     decode_meshopt(file);
     decode_draco(file);
     return file;
 }
 
 bool is_supported_extension(std::string_view name) {
-    return std::ranges::binary_search(supported_extensions, name);
+    return std::ranges::binary_search(supported_extensions, name) ||
+           std::ranges::binary_search(extensions_without_effect, name);
 }
 
 std::string label(std::string_view kind, int index, const std::string& name) {

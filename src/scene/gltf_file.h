@@ -20,6 +20,7 @@ struct GltfFile {
     std::string name;  // without folders, for messages
     tinygltf::Model model;
     std::vector<std::filesystem::path> files;  // its buffers and images beside it
+    std::vector<std::string> missing_data;     // why a buffer of the file has no data, or ""
 
     // `message` says what is wrong, then, after a semicolon, what to do.
     template <typename... Args>
@@ -45,8 +46,8 @@ struct GltfFile {
 };
 
 // Parses a .gltf or .glb file with its buffers, told apart by content. Images stay encoded, in
-// tinygltf::Image::image or their buffer view, and may be missing. Throws Error for what is no
-// glTF 2.0, and for a required extension that is not supported, which is named first.
+// tinygltf::Image::image or their buffer view, and may be missing, as may buffers. Throws Error for
+// what is no glTF 2.0, and for a required extension that is not supported, which is named first.
 GltfFile read_gltf_file(const std::filesystem::path& path);
 
 bool is_supported_extension(std::string_view name);

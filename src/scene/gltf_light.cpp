@@ -53,8 +53,6 @@ void read_cone(
 std::optional<PunctualLight> read_light(const GltfFile& file, const PlacedNode& placed) {
     const auto* reference = find_extension(placed.node.extensions, extension_name);
     if (!reference) return std::nullopt;
-    if (!reference->Has("light") || !reference->Get("light").IsInt())
-        file.fail(placed.label, "{} names no light; repair it or export again", extension_name);
     const int index = reference->Get("light").Get<int>();
     const tinygltf::Light& source = file.at(file.model.lights, index, "light", placed.label);
     const std::string where = label("light", index, source.name);

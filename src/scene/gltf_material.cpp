@@ -111,10 +111,11 @@ class MaterialReader {
         material.normal_scale =
             factor("normalTexture.scale", source_.normalTexture.scale, steepest, -steepest);
         TextureReader reader(file_, where_, material);
-        reader.read(TEXTURE_BASE_COLOR, pbr.baseColorTexture);
-        reader.read(TEXTURE_METALLIC_ROUGHNESS, pbr.metallicRoughnessTexture);
-        reader.read(TEXTURE_NORMAL, source_.normalTexture);
-        reader.read(TEXTURE_EMISSION, source_.emissiveTexture);
+        reader.read(TEXTURE_BASE_COLOR, pbr.baseColorTexture, "baseColorTexture");
+        reader.read(
+            TEXTURE_METALLIC_ROUGHNESS, pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
+        reader.read(TEXTURE_NORMAL, source_.normalTexture, "normalTexture");
+        reader.read(TEXTURE_EMISSION, source_.emissiveTexture, "emissiveTexture");
         if (const auto* extension = find_extension(source_.extensions, "KHR_materials_specular")) {
             reader.read(TEXTURE_SPECULAR, *extension, "specularTexture");
             reader.read(TEXTURE_SPECULAR_COLOR, *extension, "specularColorTexture");

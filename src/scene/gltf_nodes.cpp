@@ -44,20 +44,23 @@ Matrix4 local_transform(const GltfFile& file, const tinygltf::Node& node, std::s
             transform_property<3>(file, where, "translation", node.translation, {0, 0, 0}),
             rotation(file, node, where),
             transform_property<3>(file, where, "scale", node.scale, {1, 1, 1}));
-    const auto matrix = transform_property<16>(file, where, "matrix", node.matrix, identity_matrix);
-    if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
-        file.fail(where, "the last row of matrix is not 0 0 0 1; export an affine transform");
+    auto matrix = transform_property<16>(file, where, "matrix", node.matrix, identity_matrix);
+    for (std::size_t column = 0; column < 4; ++column) {
+        constexpr double rounding = 1e-6;  // of products of single precision
+        double& last = matrix[4 * column + 3];
+        const double exact = column < 3 ? 0 : 1;
+        if (!(std::abs(last - exact) <= rounding))
+            file.fail(where, "the last row of matrix is not 0 0 0 1; export an affine transform");
+        last = exact;
+    }
     return matrix;
 }
 
 // A hidden node hides its whole subtree.
-bool is_visible(const GltfFile& file, const tinygltf::Node& node, std::string_view where) {
+bool is_visible(const tinygltf::Node& node) {
     const auto* extension = find_extension(node.extensions, "KHR_node_visibility");
     if (!extension || !extension->Has("visible")) return true;
-    const tinygltf::Value& visible = extension->Get("visible");
-    if (!visible.IsBool())
-        file.fail(where, "KHR_node_visibility: visible is neither true nor false; repair it");
-    return visible.Get<bool>();
+    return extension->Get("visible").Get<bool>();
 }
 
 // Walks the tree from its roots with a stack of its own: files decide how deep it is.
@@ -80,7 +83,7 @@ class TreeWalk {
                 file_.fail(
                     where,
                     "its transform is not finite; repair it and its parents' or export again");
-            const bool visible = next.parent_visible && is_visible(file_, node, where);
+            const bool visible = next.parent_visible && is_visible(node);
             placed.push_back({node, next.index, where, to_world, visible});
             push(node.children, to_world, visible, where);
         }

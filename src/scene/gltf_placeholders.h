@@ -1,16 +1,20 @@
+// Where tinygltf is stricter than glTF, it is handed what it can read.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
+#include <tiny_gltf.h>
+#include <nlohmann/json_fwd.hpp>
+
+#include <vector>
 
 namespace wavepath {
 
-// tinygltf refuses two things that compressed files may leave out: the data of a buffer that only
-// stands in where EXT_meshopt_compression is unknown, and the bufferView of indices that
-// KHR_draco_mesh_compression holds. Returns JSON with a byte for the one and without the other;
-// none where the file uses neither extension or cannot be parsed. In a `binary` file the first
-// buffer without a URI is the second chunk.
-std::optional<std::string> with_placeholders(std::string_view json, bool binary);
+// Changes `root`, whose types are right: animations, which this program does not read, become
+// empty, as tinygltf wants each to move a node; skins without inverse bind matrices, which they may
+// lack [glTF 2.0, section 5.28], get the index -1; and `indices` are taken out of the primitives,
+// as tinygltf wants their accessors to have a buffer view. Returns the indices.
+std::vector<int> put_placeholders(nlohmann::json& root);
+
+// Gives primitives the indices that put_placeholders took from them.
+void put_indices_back(const std::vector<int>& indices, tinygltf::Model& model);
 
 }  // namespace wavepath

@@ -61,20 +61,24 @@ std::span<const unsigned char> encoded_bytes(
 void TextureReader::read(TextureUse use, const tinygltf::Value& extension, const char* key) {
     if (!extension.Has(key)) return;
     const tinygltf::Value& info = extension.Get(key);
-    if (!info.IsObject() || !info.Has("index"))
-        file_.fail(where_, "{} has no index; repair it or export again", key);
     tinygltf::ExtensionMap extensions;
     if (info.Has("extensions")) {
         const tinygltf::Value& members = info.Get("extensions");
         for (const std::string& name : members.Keys()) extensions[name] = members.Get(name);
     }
-    add(use, integer(file_, where_, info, "index"), integer(file_, where_, info, "texCoord", 0),
+    const std::string where = fmt::format("{}, {}", where_, key);
+    add(use, key, integer(file_, where, info, "index"), integer(file_, where, info, "texCoord", 0),
         extensions);
 }
 
 void TextureReader::add(
-    TextureUse use, int index, int uv_set, const tinygltf::ExtensionMap& extensions) {
-    const tinygltf::Texture& source = file_.at(file_.model.textures, index, "texture", where_);
+    TextureUse use,
+    const char* key,
+    int index,
+    int uv_set,
+    const tinygltf::ExtensionMap& extensions) {
+    const std::string place = fmt::format("{}, {}", where_, key);
+    const tinygltf::Texture& source = file_.at(file_.model.textures, index, "texture", place);
     const std::string where = label("texture", index, source.name);
     int image = source.source;
     if (const auto* webp = find_extension(source.extensions, "EXT_texture_webp"))
@@ -87,39 +91,39 @@ void TextureReader::add(
     Texture& texture = material_.textures[use];
     texture.image = static_cast<uint32_t>(image);
     texture.srgb = is_srgb(use);
-    read_sampler(source.sampler, texture);
+    read_sampler(source.sampler, where, texture);
     if (const auto* transform = find_extension(extensions, "KHR_texture_transform"))
-        uv_set = read_transform(*transform, uv_set, texture);
+        uv_set = read_transform(*transform, uv_set, place, texture);
     texture.uvs = place_of_uv_set(uv_set);
 }
 
 // translation * rotation * scale; the rotation is counter-clockwise in a plane whose v points down
 // [KHR_texture_transform]. Returns the set of coordinates.
 int TextureReader::read_transform(
-    const tinygltf::Value& transform, int uv_set, Texture& texture) const {
-    const auto offset = pair_of(file_, where_, transform, "offset", 0);
-    const auto scale = pair_of(file_, where_, transform, "scale", 1);
-    const double rotation = number(file_, where_, transform, "rotation", 0);
-    if (!std::isfinite(rotation)) file_.fail(where_, "rotation is not finite; repair it");
+    const tinygltf::Value& transform, int uv_set, std::string_view where, Texture& texture) const {
+    const auto offset = pair_of(file_, where, transform, "offset", 0);
+    const auto scale = pair_of(file_, where, transform, "scale", 1);
+    const double rotation = number(file_, where, transform, "rotation", 0);
+    if (!std::isfinite(rotation)) file_.fail(where, "rotation is not finite; repair it");
     const double c = std::cos(rotation);
     const double s = std::sin(rotation);
     const std::array<double, 6> matrix{c * scale[0],  s * scale[1], offset[0],
                                        -s * scale[0], c * scale[1], offset[1]};
     std::ranges::transform(
         matrix, texture.transform.begin(), [](double x) { return static_cast<float>(x); });
-    return transform.Has("texCoord") ? integer(file_, where_, transform, "texCoord") : uv_set;
+    return transform.Has("texCoord") ? integer(file_, where, transform, "texCoord") : uv_set;
 }
 
-void TextureReader::read_sampler(int index, Texture& texture) const {
+void TextureReader::read_sampler(int index, std::string_view where, Texture& texture) const {
     if (index == -1) return;
-    const tinygltf::Sampler& sampler = file_.at(file_.model.samplers, index, "sampler", where_);
-    const std::string where = label("sampler", index, sampler.name);
-    texture.wrap_s = wrap_of(file_, where, sampler.wrapS);
-    texture.wrap_t = wrap_of(file_, where, sampler.wrapT);
+    const tinygltf::Sampler& sampler = file_.at(file_.model.samplers, index, "sampler", where);
+    const std::string place = label("sampler", index, sampler.name);
+    texture.wrap_s = wrap_of(file_, place, sampler.wrapS);
+    texture.wrap_t = wrap_of(file_, place, sampler.wrapT);
     const bool linear = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_LINEAR;
     texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
     if (sampler.magFilter != -1 && !linear && !texture.nearest)
-        file_.fail(where, "magFilter {} is unknown; use 9728 or 9729", sampler.magFilter);
+        file_.fail(place, "magFilter {} is unknown; use 9728 or 9729", sampler.magFilter);
 }
 
 uint32_t TextureReader::place_of_uv_set(int set) {

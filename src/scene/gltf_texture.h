@@ -12,10 +12,10 @@ class TextureReader {
     TextureReader(const GltfFile& file, std::string where, Material& material)
         : file_(file), where_(std::move(where)), material_(material) {}
 
-    // A textureInfo of tinygltf; of index -1: none.
+    // Member `key` of the material: a textureInfo of tinygltf; of index -1: none.
     template <typename Info>
-    void read(TextureUse use, const Info& info) {
-        if (info.index != -1) add(use, info.index, info.texCoord, info.extensions);
+    void read(TextureUse use, const Info& info, const char* key) {
+        if (info.index != -1) add(use, key, info.index, info.texCoord, info.extensions);
     }
 
     // Member `key` of an extension's object, where it has one.
@@ -23,9 +23,19 @@ class TextureReader {
 
   private:
     // Fails for what has no image, and for a third set of texture coordinates.
-    void add(TextureUse use, int index, int uv_set, const tinygltf::ExtensionMap& extensions);
-    int read_transform(const tinygltf::Value& transform, int uv_set, Texture& texture) const;
-    void read_sampler(int index, Texture& texture) const;
+    void add(
+        TextureUse use,
+        const char* key,
+        int index,
+        int uv_set,
+        const tinygltf::ExtensionMap& extensions);
+    // `where`: the material and the member that refers to the texture.
+    int read_transform(
+        const tinygltf::Value& transform,
+        int uv_set,
+        std::string_view where,
+        Texture& texture) const;
+    void read_sampler(int index, std::string_view where, Texture& texture) const;
     uint32_t place_of_uv_set(int set);
 
     const GltfFile& file_;

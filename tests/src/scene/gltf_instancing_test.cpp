@@ -93,7 +93,8 @@ TEST(GltfInstancing, RejectsWhatIsBroken) {
         error([](GltfBuilder&) {
             return Json{{"SCALE", "three"}};
         }),
-        HasSubstr("instances' SCALE: SCALE is no integer from 0 on"));
+        HasSubstr("node 0: extensions.EXT_mesh_gpu_instancing.attributes.SCALE is \"three\", not "
+                  "an integer"));
     EXPECT_THAT(
         error([](GltfBuilder&) {
             return Json{{"SCALE", 7}};

@@ -100,7 +100,7 @@ TEST(GltfLight, RejectsWhatIsNoLight) {
         error({{"type", "point"}}, Json::object(), 1), HasSubstr("node 1: refers to light 1"));
     EXPECT_THAT(
         error({{"type", "point"}}, Json::object(), "a"),
-        HasSubstr("node 1: KHR_lights_punctual names no light"));
+        HasSubstr("node 1: extensions.KHR_lights_punctual.light is \"a\", not an integer"));
     EXPECT_THAT(
         error({{"type", "directional"}}, {{"scale", {1, 1, 0}}}),
         HasSubstr("node 1: its scale leaves the light no direction"));

@@ -124,7 +124,8 @@ TEST(GltfMaterial, RejectsFactorsOutOfRange) {
         "scene.gltf: material 0 \"glass\": ior is 0.9, not in 1 .. 3.40282e+38; repair the "
         "material");
     EXPECT_THAT(
-        error(extension("KHR_materials_ior", {{"ior", "high"}})), HasSubstr("ior is not a number"));
+        error(extension("KHR_materials_ior", {{"ior", "high"}})),
+        HasSubstr("ior is \"high\", not a number"));
     EXPECT_THAT(
         error(extension("KHR_materials_specular", {{"specularFactor", 1.5}})),
         HasSubstr("specularFactor is 1.5, not in 0 .. 1"));
@@ -133,7 +134,7 @@ TEST(GltfMaterial, RejectsFactorsOutOfRange) {
         HasSubstr("specularColorFactor has 2 numbers instead of 3"));
     EXPECT_THAT(
         error(extension("KHR_materials_specular", {{"specularColorFactor", {1, "a", 1}}})),
-        HasSubstr("specularColorFactor holds what is no number"));
+        HasSubstr("specularColorFactor[1] is \"a\", not a number"));
     EXPECT_THAT(
         error(extension("KHR_materials_specular", {{"specularColorFactor", {1, -1, 1}}})),
         HasSubstr("specularColorFactor is -1, not in 0 .. "));

@@ -201,7 +201,7 @@ TEST(GltfMeshopt, RejectsWhatIsBroken) {
         "scene.gltf: bufferView 1, EXT_meshopt_compression: its data do not decode; the file is "
         "broken, export again");
     EXPECT_THAT(error({{"mode", "CLOUDS"}}), HasSubstr("mode \"CLOUDS\" is unknown"));
-    EXPECT_THAT(error({{"mode", 3}}), HasSubstr("mode is no text"));
+    EXPECT_THAT(error({{"mode", 3}}), HasSubstr("mode is 3, not a text"));
     EXPECT_THAT(error({{"mode", "TRIANGLES"}}), HasSubstr("does not allow 4 rows of 12 bytes"));
     EXPECT_THAT(error({{"byteStride", 260}}), HasSubstr("does not allow 4 rows of 260 bytes"));
     EXPECT_THAT(error({{"byteStride", 0}}), HasSubstr("does not allow 4 rows of 0 bytes"));

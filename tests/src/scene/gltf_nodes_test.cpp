@@ -176,7 +176,9 @@ TEST(GltfNodes, HidesSubtrees) {
     gltf.root["nodes"][1]["extensions"]["KHR_node_visibility"]["visible"] = 0;
     EXPECT_EQ(
         load_error(gltf),
-        "scene.gltf: node 1: KHR_node_visibility: visible is neither true nor false; repair it");
+        "scene.gltf: node 1: extensions.KHR_node_visibility.visible is 0, not true or false; "
+        "repair "
+        "the file or export again");
 }
 
 TEST(GltfNodes, JudgesOnlyWhatTheSceneReaches) {
@@ -245,6 +247,22 @@ TEST(GltfNodes, RejectsReferencesOutOfRange) {
     EXPECT_THAT(placing_error({{"camera", 0}}), HasSubstr("node 0: refers to camera 0"));
 }
 
+// Products of matrices in single precision.
+TEST(GltfNodes, ForgivesARoundedLastRow) {
+    const auto placed = [](const Json& matrix) {
+        GltfBuilder gltf;
+        gltf.triangle();
+        gltf.root["nodes"][0]["matrix"] = matrix;
+        return load(gltf).instances.at(0).to_world;
+    };
+    const Matrix4 exact{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1};
+    for (const Json& matrix :
+         {Json{2, 0, 0, 1e-17, 0, 2, 0, -5.96e-8, 0, 0, 2, 0, 5, 6, 7, 1},
+          Json{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, -0.0, 5, 6, 7, 0.99999994},
+          Json{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1.0000001}})
+        EXPECT_EQ(placed(matrix), exact) << matrix;
+}
+
 TEST(GltfNodes, RejectsBrokenTransforms) {
     EXPECT_THAT(
         placing_error({{"matrix", {1, 2}}}), HasSubstr("matrix has 2 numbers instead of 16"));
@@ -253,6 +271,9 @@ TEST(GltfNodes, RejectsBrokenTransforms) {
         placing_error({{"rotation", {0, 0, 0, 0}}}), HasSubstr("rotation is the zero quaternion"));
     EXPECT_THAT(
         placing_error({{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2}}}),
+        HasSubstr("the last row of matrix is not 0 0 0 1"));
+    EXPECT_THAT(
+        placing_error({{"matrix", {1, 0, 0, 2e-6, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}),
         HasSubstr("the last row of matrix is not 0 0 0 1"));
     GltfBuilder gltf;
     gltf.triangle();

@@ -217,7 +217,7 @@ TEST(GltfTexture, SaysWhatIsWrongWithAReference) {
     const Json image = data_uri(png_file(2, 1, two_texels));
     EXPECT_THAT(
         load_error(textured({{"index", 4}}, image)),
-        HasSubstr("material 0: refers to texture 4, but the file has 1 of them"));
+        HasSubstr("material 0, baseColorTexture: refers to texture 4, but the file has 1 of them"));
     EXPECT_THAT(
         load_error(textured(plain_info, image, {{"source", 3}})),
         HasSubstr("texture 0: refers to image 3"));
