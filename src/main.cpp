@@ -22,6 +22,7 @@
 #include <exception>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace {
 
@@ -45,6 +46,9 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     std::string command;
     for (const CLI::App* sub : app.get_subcommands()) command = sub->get_name() + " ";
     std::string what = error.what();
+    const std::vector<std::string> rest = app.remaining();
+    if (command.empty() && !rest.empty() && !rest.front().starts_with('-'))
+        what = rest.front() + " is no command: render, profile or devices";
     constexpr std::string_view unconverted = "Could not convert: ";  // then: --option = value
     if (what.starts_with(unconverted)) what = what.substr(unconverted.size()) + ": not a number";
     spdlog::error("{}; see wavepath {}--help", what, command);

@@ -33,8 +33,8 @@ struct Device {
 };
 
 // Selector: "" (PoCL's CPU if there is one, else the first usable device), "cpu", "gpu", "P.D"
-// (platform and device index as `wavepath devices` prints them), or a part of a platform's or
-// device's name, any case. Throws Error when nothing fits, listing what there is. "" lets the
+// (platform and device index as `wavepath devices` prints them), "pocl", or a part of a platform's
+// or device's name, any case. Throws Error when nothing fits, listing what there is. "" lets the
 // OpenCL loader load nothing but PoCL where that is installed and OCL_ICD_VENDORS is unset: a
 // process that opens other devices as well opens those first.
 Device open_device(const std::string& selector);

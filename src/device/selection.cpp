@@ -21,6 +21,7 @@ bool fits(const DeviceInfo& device, const std::string& selector) {
     if (selector.empty()) return true;
     if (selector == "cpu") return device.is_cpu;
     if (selector == "gpu") return device.is_gpu;
+    if (selector == "pocl") return is_pocl(device);  // whose platform has its name in full
     // An index that is not there must not be taken for a part of a name, such as "3.1".
     if (selector.find_first_not_of("0123456789.") == std::string::npos)
         return selector == fmt::format("{}.{}", device.platform_index, device.device_index);

@@ -257,10 +257,13 @@ Attempt attempt(
 Bvh build_bvh(const std::vector<float>& positions) {
     const auto start = std::chrono::steady_clock::now();
     const std::unique_ptr<RTCDeviceTy, Release> device(rtcNewDevice(nullptr));
-    if (!device)
+    if (!device) {
+        const RTCError error = rtcGetDeviceError(nullptr);
+        if (error == RTC_ERROR_OUT_OF_MEMORY)
+            throw Error("Embree: no memory to start in; close other programs or raise `ulimit -v`");
         throw Error(
-            "Embree: no device (error {}); check its installation",
-            static_cast<int>(rtcGetDeviceError(nullptr)));
+            "Embree: no device (error {}); check its installation", static_cast<int>(error));
+    }
     Attempt best = attempt(device.get(), positions, false, depth_limits.front());
     if (best.overlap > worthwhile_overlap)
         best = attempt(device.get(), positions, true, depth_limits.front());

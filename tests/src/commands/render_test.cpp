@@ -153,6 +153,16 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --no-such-option", "--no-such-option");
 }
 
+TEST_F(RenderCommand, NamesWhatIsNoCommand) {
+    for (const char* rest : {"", " scene.gltf", " scene.gltf -o a.exr"}) {
+        const Outcome outcome = run(std::string("rendr") + rest);
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_EQ(
+            outcome.words,
+            "error: rendr is no command: render, profile or devices; see wavepath --help\n");
+    }
+}
+
 TEST_F(RenderCommand, RefusesOutputsThatAreOneFileHoweverTheyAreLinked) {
     std::ofstream(path("a.exr")) << "a file";
     std::filesystem::create_hard_link(path("a.exr"), path("hard.exr"));

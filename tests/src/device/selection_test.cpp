@@ -58,6 +58,8 @@ TEST(Selection, KindIndexAndPartOfNameInAnyCase) {
     EXPECT_EQ(select_device(machine(), "GPU"), 0U);
     EXPECT_EQ(select_device(machine(), "2.0"), 3U);
     EXPECT_EQ(select_device(machine(), "portable"), 3U);
+    EXPECT_EQ(select_device(machine(), "Portable Computing"), 3U);
+    EXPECT_EQ(select_device(machine(), "PoCL"), 3U);
     EXPECT_EQ(select_device(machine(), "FAST"), 0U);
     EXPECT_EQ(select_device(machine(), "vendor cpu"), 1U);
 }
