@@ -4,6 +4,7 @@
 #pragma once
 
 #include "geometry/interaction.cl"
+#include "shared/film.h"
 #include "shared/inline.h"
 
 INLINE uint innermost_medium(const uint stack) {
@@ -80,10 +81,11 @@ INLINE float refractive_index(global const DeviceMedium* media, const uint stack
     return index;
 }
 
-// 1; NaN where more media lie around one another than the stack holds, to be found and counted.
+// 1; NaN where more media lie around one another than the stack holds, to be found and counted. Its
+// payload, which arithmetic keeps [IEEE 754-2019, section 6.2.3], tells the host the reason.
 INLINE float weight_of_crossing(const uint stack, const uint crossed, const uint medium) {
     const int overflows = (stack >> 24 != 0u) & (crossed == enter_medium(stack, medium));
-    return overflows ? NAN : 1.0f;
+    return overflows ? as_float(NAN_OF_MEDIA) : 1.0f;
 }
 
 // A ray that starts at its own origin, not behind a boundary.

@@ -21,4 +21,8 @@ enum FilmFlag {
     FILM_FLAGS
 };
 
+// Bits of the NaN, but for its sign, of paths that meet more media around one another than
+// MEDIUM_STACK holds.
+#define NAN_OF_MEDIA 0x7fc04d00u
+
 #endif

@@ -3,6 +3,7 @@
 #include "shared/film.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -90,6 +91,10 @@ DevelopedFilm develop(const Device& device, const Film& film, uint64_t samples, 
             out.nonfinite.sample = flags[FILM_FIRST_NONFINITE * pixels + i];
         }
         out.nonfinite.samples += found;
+        for (const char* channel : {"R", "G", "B"})
+            if ((std::bit_cast<uint32_t>(out.image.channels[channel][i]) & 0x7fffffffU) ==
+                NAN_OF_MEDIA)
+                out.nonfinite.of_media = true;
     }
     return out;
 }

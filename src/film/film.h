@@ -21,6 +21,7 @@ struct Film {
 struct NonFinite {
     uint64_t samples = 0;
     uint32_t x = 0, y = 0, sample = 0;  // the first, in pixel order
+    bool of_media = false;              // some for more media than a path can follow
 };
 
 struct DevelopedFilm {

@@ -299,10 +299,16 @@ RenderResult render(
     }
 
     result.film = develop(device, film, result.samples, result.batches);
-    if (result.film.nonfinite.samples > 0 && features.media)
+    if (result.film.nonfinite.of_media)
         result.warnings.push_back(fmt::format(
             "{}: samples are not finite where more than 4 media lie around one another, "
             "or meet in a plane; take one of them away if any do",
+            scene.name));
+    else if (result.film.nonfinite.samples > 0)
+        result.warnings.push_back(fmt::format(
+            "{}: samples are not finite, and why is not known; dim lights whose radiance may "
+            "exceed "
+            "32 bits, else report the scene",
             scene.name));
     else if (result.batches > 1 && !std::isfinite(result.film.relative_error))
         result.warnings.emplace_back(

@@ -2,6 +2,7 @@
 // counted.
 #include "build_paths.h"
 #include "support/environment_variable.h"
+#include "support/media.h"
 #include "support/rendering.h"
 #include "support/temporary_folder.h"
 
@@ -86,6 +87,27 @@ TEST(NonFinite, TheFirstSampleIsNamed) {
     EXPECT_EQ(found.x, 5U);
     EXPECT_EQ(found.y, 3U);
     EXPECT_EQ(found.sample, 37U);
+}
+
+// A body of fog beside the floor has nothing to do with it.
+TEST(NonFinite, MediaAreNotBlamedForLights) {
+    Scene scene = scene_named("glaring");
+    add_square(scene, lambert(grey(0.5F)), {0, 0, 0}, {0, 0, 1}, 4);
+    add_box(scene, boundary_of(medium_of(1, 0.5)), {1, 1, 0.5}, {1.5, 1.5, 1}, Facing::outward);
+    PunctualLight light;
+    light.position = {0, 0, 0.1};
+    light.intensity = grey(3e38F);
+    scene.lights = {light};
+    const RenderResult result = render(
+        test_device(), scene,
+        square_settings("mis", orthographic({0, 0, 0.05}, {0, 0, 0}, 0.1), 4, 1));
+    EXPECT_EQ(result.film.nonfinite.samples, 16U);
+    EXPECT_FALSE(result.film.nonfinite.of_media);
+    ASSERT_EQ(result.warnings.size(), 1U);
+    EXPECT_EQ(
+        result.warnings[0],
+        "glaring: samples are not finite, and why is not known; dim lights whose radiance may "
+        "exceed 32 bits, else report the scene");
 }
 
 }  // namespace
