@@ -2,6 +2,7 @@
 
 #include "error.h"
 #include "scene/device_material.h"
+#include "scene/start_on_face.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -130,47 +131,6 @@ uint32_t row_of(const DeviceMedium& medium, std::vector<DeviceMedium>& media) {
     const auto row = static_cast<uint32_t>(found - media.begin()) + 1;
     if (found == media.end()) media.push_back(medium);
     return row;
-}
-
-// Whether the film rectangle of an orthographic camera may meet the triangle: the box, in pixels,
-// of where the triangle cuts the film's plane overlaps the film.
-bool cuts_film(const MediaBody::Triangle& triangle, const RenderParams& params) {
-    const Vec3d corner{params.corner_x, params.corner_y, params.corner_z};
-    const Vec3d normal{params.camera_x, params.camera_y, params.camera_z};
-    const Vec3d right{params.right_x, params.right_y, params.right_z};
-    const Vec3d down{params.down_x, params.down_y, params.down_z};
-    double low[2] = {1e300, 1e300};
-    double high[2] = {-1e300, -1e300};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3d a = minus(point(triangle[k]), corner);
-        const Vec3d b = minus(point(triangle[(k + 1) % 3]), corner);
-        const double da = dot(a, normal);
-        const double db = dot(b, normal);
-        if (da * db > 0) continue;
-        const double at = da == db ? 0 : da / (da - db);
-        const Vec3d p{
-            a[0] + at * (b[0] - a[0]), a[1] + at * (b[1] - a[1]), a[2] + at * (b[2] - a[2])};
-        const double pixel[2] = {dot(p, right) / dot(right, right), dot(p, down) / dot(down, down)};
-        for (std::size_t j = 0; j < 2; ++j) {
-            low[j] = std::min(low[j], pixel[j]);
-            high[j] = std::max(high[j], pixel[j]);
-        }
-    }
-    return low[0] <= params.width && high[0] >= 0 && low[1] <= params.height && high[1] >= 0;
-}
-
-// Whether an eye is so close to the triangle that floats do not say on which side of it.
-bool lies_on(const MediaBody::Triangle& triangle, const Vec3d& eye) {
-    constexpr double nearest = 0x1p-21;
-    const std::array<Vec3d, 3> corners{point(triangle[0]), point(triangle[1]), point(triangle[2])};
-    const Vec3d normal =
-        normalized(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])));
-    if (!(std::abs(dot(normal, minus(eye, corners[0]))) <= nearest)) return false;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3d side = normalized(minus(corners[(k + 1) % 3], corners[k]));
-        if (dot(cross(normal, side), minus(eye, corners[k])) < -nearest) return false;
-    }
-    return true;
 }
 
 }  // namespace

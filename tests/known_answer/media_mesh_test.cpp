@@ -1,4 +1,5 @@
 // Meshes around media as files have them: holes, seams, hollows, twins, too many of them.
+#include "scene/transform.h"
 #include "support/media.h"
 #include "support/rendering.h"
 
@@ -291,6 +292,26 @@ TEST(MediaBoundary, ThatAnOrthographicCameraCutsIsRefused) {
             test_device(), scene,
             square_settings("mis", orthographic({0, 0, 0}, {0, 0, -1}, 3), 8, 4)),
         Error);
+}
+
+// A side that runs aslant past the film's rectangle, whose box it meets, does not cut it: within
+// the medium, straight through to the face.
+TEST(MediaBoundary, ThatPassesAFilmAslantCutsItNot) {
+    constexpr double sigma = 0.7;
+    for (const double side : {1.3, 1.6}) {  // of the film; sqrt(2) touches the side
+        Scene scene = scene_named("aslant");
+        scene.environment = constant_environment(1);
+        add_box(scene, boundary_of(medium_of(sigma, 0)), {-1, -1, -1}, {1, 1, 1}, Facing::outward);
+        const double eighth = std::numbers::pi / 8;  // half of the turn
+        scene.instances[0].to_world =
+            compose({0, 0, 0}, {0, 0, std::sin(eighth), std::cos(eighth)}, {1, 1, 1});
+        const RenderSettings settings =
+            square_settings("mis", orthographic({0, 0, 0}, {0, 0, -1}, side), 8, 16);
+        if (side < 1.414)
+            EXPECT_TRUE(has_mean(shared_mean(render_scene(scene, settings)), std::exp(-sigma)));
+        else
+            EXPECT_THROW(render(test_device(), scene, settings), Error);
+    }
 }
 
 }  // namespace
