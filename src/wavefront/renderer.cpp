@@ -3,6 +3,7 @@
 #include "device/program.h"
 #include "scene/camera.h"
 #include "scene/contacts.h"
+#include "scene/hidden_lights.h"
 #include "scene/light_guide.h"
 #include "wavefront/sample_plan.h"
 
@@ -45,7 +46,12 @@ void check_lights(
             "{}: no light; add an emissive material, a KHR_lights_punctual light, --env or "
             "--env-radiance",
             scene.name);
-    if (method.sample_lights || !punctual) return;
+    if (!punctual) return;
+    if (method.sample_lights) {
+        const std::string hidden = warning_of_hidden_lights(scene, geometry);
+        if (!hidden.empty()) result.warnings.push_back(hidden);
+        return;
+    }
     if (!area && !scene.environment && !media.emit)
         throw Error(
             "{}: --method {} cannot find punctual lights, and the scene has no other; use direct, "
