@@ -97,7 +97,7 @@ INLINE int8 intersect_node(
 
 // Where a ray begins among the triangles it meets, which follow one another by distance, then id:
 // behind the last one it passed, so that none is met twice and none left out.
-#define STARTS_BEHIND (HAS_MEDIA || HAS_CONTACTS)
+#define STARTS_BEHIND (HAS_PASSAGES || HAS_CONTACTS)
 typedef struct {
     float t;
     int primitive;

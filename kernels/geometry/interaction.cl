@@ -49,29 +49,35 @@ INLINE Interaction find_interaction(
     return r;
 }
 
+// The lobes of a material whose base colour at the point is `base`.
+INLINE Surface material_surface(global const DeviceMaterial* material, const Vec3 base) {
+    Surface s;
+    s.base = base;
+    if (!HAS_SPECULAR) return s;
+    s.f0 = vec3(material->f0_r, material->f0_g, material->f0_b);
+    s.metallic = material->metallic;
+    s.specular = material->specular;
+    s.alpha = material->alpha;
+    s.transmission = material->transmission;
+    return s;
+}
+
 // The lobes of slot `slot`'s surface.
 INLINE Surface load_surface(
     global const DeviceMaterial* materials,
     global const float* surfaces,
     const size_t stride,
     const size_t slot) {
+    const Vec3 base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
+    if (!(HAS_SPECULAR && HAS_LOBE_TEXTURES))
+        return material_surface(materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]), base);
     Surface s;
-    s.base = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
-    if (HAS_SPECULAR && HAS_LOBE_TEXTURES) {
-        s.f0 = load3(PLANE(surfaces, SURFACE_F0_R), stride, slot);
-        s.metallic = PLANE(surfaces, SURFACE_METALLIC)[slot];
-        s.specular = PLANE(surfaces, SURFACE_SPECULAR)[slot];
-        s.alpha = PLANE(surfaces, SURFACE_ALPHA)[slot];
-        s.transmission = PLANE(surfaces, SURFACE_TRANSMISSION)[slot];
-    } else if (HAS_SPECULAR) {
-        global const DeviceMaterial* material =
-            materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
-        s.f0 = vec3(material->f0_r, material->f0_g, material->f0_b);
-        s.metallic = material->metallic;
-        s.specular = material->specular;
-        s.alpha = material->alpha;
-        s.transmission = material->transmission;
-    }
+    s.base = base;
+    s.f0 = load3(PLANE(surfaces, SURFACE_F0_R), stride, slot);
+    s.metallic = PLANE(surfaces, SURFACE_METALLIC)[slot];
+    s.specular = PLANE(surfaces, SURFACE_SPECULAR)[slot];
+    s.alpha = PLANE(surfaces, SURFACE_ALPHA)[slot];
+    s.transmission = PLANE(surfaces, SURFACE_TRANSMISSION)[slot];
     return s;
 }
 

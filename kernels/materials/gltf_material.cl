@@ -55,8 +55,16 @@ INLINE int gltf_is_mirror(const Surface s) {
     return HAS_SPECULAR && s.alpha < MIRROR_ALPHA;
 }
 
+// By channel, what a thin wall that is smooth lets straight through of light that arrives under
+// `cosine`; 0 of other surfaces. It is no lobe that is sampled: rays are passed on as they are
+// (stages/pass_walls.cl, stages/connect_through_media.cl).
+INLINE Vec3 gltf_straight_through(const Surface s, const float cosine) {
+    const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    return HAS_SMOOTH_WALLS && gltf_is_mirror(s) ? gltf_reflectance(s, cosine).through : none;
+}
+
 // Probabilities that sampling takes the specular lobe, and the one through: their shares of what
-// leaves normal-facing facets.
+// normal-facing facets scatter.
 typedef struct {
     float specular, through;
 } LobeChances;
@@ -68,7 +76,7 @@ INLINE LobeChances gltf_lobe_pmf(const Surface s, const Vec3 wo) {
     if (!HAS_SPECULAR) return c;
     const Reflectance r = gltf_reflectance(s, wo.z);
     const float specular = max_component3(r.specular);
-    const float through = max_component3(r.through);
+    const float through = gltf_is_mirror(s) ? 0.0f : max_component3(r.through);
     const float sum = specular + max_component3(r.diffuse) + (HAS_TRANSMISSION ? through : 0.0f);
     const float share = sum > 0.0f ? specular / sum : 0.0f;
     // uniform in projected solid angle for every lobe that is not a delta
@@ -99,7 +107,7 @@ INLINE float gltf_pdf_w(const Surface s, const Vec3 wo, const Vec3 wi, const int
     if (HAS_TRANSMISSION) {
         const float diffuse = 1.0f - pmf.specular - pmf.through;
         const float above = fma(pmf.specular, ggx, diffuse * lambert_pdf_w(wi));
-        const float spread = SAMPLE_LOBES || gltf_is_mirror(s) ? ggx : lambert_pdf_w(wi);
+        const float spread = SAMPLE_LOBES ? ggx : lambert_pdf_w(wi);
         pdf_w = through ? pmf.through * spread : above;
     }
     return wi.z > 0.0f ? pdf_w : 0.0f;
@@ -139,16 +147,14 @@ INLINE BsdfSample gltf_sample(const Surface s, const Vec3 wo, const Sample2 u, c
         select3(mirror, vec3(0.0f, 0.0f, 1.0f), ggx_sample(wo, max(s.alpha, MIRROR_ALPHA), u));
     const Vec3 reflected = sub3(scale3(m, 2.0f * dot3(wo, m)), wo);
     int facet = specular;
-    if (HAS_TRANSMISSION) facet |= SAMPLE_LOBES ? through : (through & mirror);
+    if (HAS_TRANSMISSION && SAMPLE_LOBES) facet |= through;
     r.wi = select3(facet, reflected, r.wi);
 
     const int delta = facet && mirror;
     const float pdf_w = gltf_pdf_w(s, wo, r.wi, through);
     const Vec3 finite = scale3(gltf_eval(s, wo, r.wi, through), pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
     const Reflectance facing = gltf_reflectance(s, wo.z);
-    const float chance = through ? pmf.through : pmf.specular;
-    const Vec3 taken = through ? facing.through : facing.specular;
-    const Vec3 certain = scale3(taken, chance > 0.0f ? 1.0f / chance : 0.0f);
+    const Vec3 certain = scale3(facing.specular, pmf.specular > 0.0f ? 1.0f / pmf.specular : 0.0f);
     r.weight = select3(delta, certain, finite);
     r.pdf_w = delta ? PDF_CERTAIN : pdf_w;
     if (HAS_TRANSMISSION) {

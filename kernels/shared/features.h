@@ -38,6 +38,9 @@
 #ifndef HAS_TRANSMISSION
 #define HAS_TRANSMISSION 1  // some material lets light through (thin walls)
 #endif
+#ifndef HAS_SMOOTH_WALLS
+#define HAS_SMOOTH_WALLS 1  // some such wall lets it straight through
+#endif
 #ifndef HAS_AREA_LIGHTS
 #define HAS_AREA_LIGHTS 1
 #endif
@@ -103,5 +106,8 @@
 
 // Normals to shade by that are not the face's own.
 #define HAS_SHADING_NORMALS (HAS_VERTEX_NORMALS || HAS_NORMAL_MAPS)
+
+// Surfaces that a ray may pass as the same ray.
+#define HAS_PASSAGES (HAS_MEDIA || HAS_SMOOTH_WALLS)
 
 #endif

@@ -28,9 +28,9 @@ enum HitPlane {
 #define HIT_MISS (-1)    // it left the scene
 #define HIT_ENDED (-2)   // the path is over: absorbed, or cut
 #define HIT_IDLE (-3)    // the slot has no work left
-// with HAS_MEDIA:
+// with HAS_PASSAGES:
 #define HIT_MEDIUM (-4)  // it stopped in a medium before the surface; HIT_T and SURFACE_X say where
-#define HIT_BOUNDARY (-5)    // it passes an index-matched boundary and goes on as the same ray
+#define HIT_BOUNDARY (-5)    // it passes a boundary or a wall and goes on as the same ray
 #define HIT_DIELECTRIC (-6)  // it leaves a dielectric boundary as a new ray
 #define HIT_LEAVING (-7)     // it leaves its last medium at HIT_T and meets nothing behind
 
@@ -63,16 +63,17 @@ enum SurfacePlane {
 #define SURFACE_PLANES_FLAT SURFACE_N_X
 #define SURFACE_PLANES_SHADED SURFACE_METALLIC
 
-// media: where a path stands among the media (only with HAS_MEDIA). A ray that passes an
-// index-matched boundary keeps its origin: its next segment begins at MEDIUM_T, behind the triangle
-// MEDIUM_PRIMITIVE, and no offset has to be right.
+// media: where a path stands among the media and the surfaces that it passes (only with
+// HAS_PASSAGES). A ray that passes an index-matched boundary or a smooth thin wall keeps its
+// origin: its next segment begins at MEDIUM_T, behind the triangle MEDIUM_PRIMITIVE, and no offset
+// has to be right.
 enum MediumPlane {
     MEDIUM_STACK,      // (uint bits) media around the segment, 8 bits each: rows of the table of
                        // media + 1, the innermost lowest; 0: vacuum (media/medium_stack.cl)
     MEDIUM_T,          // where the segment begins [distance along the ray, normalised]; below 0
                        // behind a dielectric, from which the ray's origin keeps RAY_OFFSET
     MEDIUM_PRIMITIVE,  // (int bits) the boundary it begins at; NO_BOUNDARY at the ray's origin
-    MEDIUM_PASSES,     // (uint bits) boundaries passed since the ray's origin
+    MEDIUM_PASSES,     // (uint bits) boundaries and walls passed since the ray's origin
     MEDIUM_BEFORE,    // (uint bits) MEDIUM_STACK before MEDIUM_PRIMITIVE and boundaries touching it
     MEDIUM_TOUCHING,  // how far behind MEDIUM_PRIMITIVE surfaces touch it [along the ray]
     // Of the glass or thin wall that was hit (only with HAS_CONTACTS; from find_contacts on):

@@ -1,6 +1,7 @@
-// Traces the pending connections of a scene with media and adds what arrives: instead of
-// `occlusion`, which knows no boundaries. One ray meets the index-matched boundaries one after the
-// other and ends at its light: nothing is pushed off a boundary, so no lamp below one is missed.
+// Traces the pending connections of a scene with media or smooth thin walls and adds what arrives:
+// instead of `occlusion`, which knows neither. One ray meets the index-matched boundaries and the
+// walls one after the other and ends at its light: nothing is pushed off a boundary, so no lamp
+// below one is missed.
 //
 // reads: shadows, ids, scene, textures
 //
@@ -8,12 +9,34 @@
 //
 // One work-item a slot.
 
+#include "geometry/textured_surface.cl"
 #include "lights/connection.cl"
 #include "lights/punctual.cl"
 #include "media/boundary.cl"
 #include "media/homogeneous.cl"
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
+
+// What the thin wall at a hit lets straight through, by channel; 0 where it is not smooth.
+INLINE Vec3 straight_through(
+    const Cover* cover,
+    global const DeviceMaterial* materials,
+    const Hit* hit,
+    const Vec3 direction) {
+    const Interaction x =
+        find_interaction(cover->triangles, materials, hit->primitive, hit->u, hit->v, direction);
+    Surface surface = material_surface(materials + x.material, x.base);
+    Vec3 n = x.n;
+    if (HAS_TEXTURES) {
+        global const float* triangle = cover->triangles + (size_t)TRIANGLE_FLOATS * hit->primitive;
+        apply_surface_textures(cover->textures, x.material, triangle, hit->u, hit->v, &surface);
+        global const DeviceTexture* bumps =
+            texture_row(cover->textures, x.material, TEXTURE_NORMAL);
+        if (HAS_NORMAL_MAPS && bumps->width > 0)
+            n = mapped_normal(cover->textures, bumps, triangle, hit->u, hit->v, x.ng, direction);
+    }
+    return gltf_straight_through(surface, -dot3(n, direction));
+}
 
 kernel void connect_through_media(
     constant const RenderParams* restrict settings,
@@ -37,7 +60,7 @@ kernel void connect_through_media(
     const Vec3 direction = load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot);
     const float length = sqrt(dot3(direction, direction));
     const int leaves = length > 0.5f * OUTSIDE_SCENE;
-    uint stack = as_uint(PLANE(shadows, SHADOW_MEDIA)[slot]);
+    uint stack = HAS_MEDIA ? as_uint(PLANE(shadows, SHADOW_MEDIA)[slot]) : 0;
     Vec3 value = load3(PLANE(shadows, SHADOW_R), stride, slot);
     Vec3 tau = vec3(0.0f, 0.0f, 0.0f);
     RayStart start = at_origin();
@@ -49,7 +72,13 @@ kernel void connect_through_media(
             t_max, start, holes_in(&cover));
         global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * max(hit.primitive, 0);
         global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
-        const int ends = hit.primitive < 0 || material->boundary < BOUNDARY_INDEX_MATCHED;
+        Vec3 straight = vec3(0.0f, 0.0f, 0.0f);
+        if (HAS_SMOOTH_WALLS && hit.primitive >= 0 && hit.t < 1.0f &&
+            material->boundary == BOUNDARY_OPAQUE && material->transmission > 0.0f)
+            straight = straight_through(&cover, materials, &hit, scale3(direction, 1.0f / length));
+        const int is_wall = max_component3(straight) > 0.0f;
+        const int ends =
+            hit.primitive < 0 || (material->boundary < BOUNDARY_INDEX_MATCHED && !is_wall);
         if (hit.primitive >= 0 && ends && hit.t < 1.0f) return;
         // what leaves the scene has left all media: of an open mesh too
         const uint innermost = ends && leaves ? 0u : innermost_medium(stack);
@@ -58,11 +87,15 @@ kernel void connect_through_media(
             tau = madd3(
                 tau, extinction(media + (int)innermost - 1), max(end - start.t, 0.0f) * length);
         if (ends) break;
+        start = ray_start(hit.t, hit.primitive);
+        if (is_wall) {
+            value = mul3(value, straight);
+            continue;
+        }
         const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
         value = mul3(value, tint_of_boundary(&cover, materials, &hit));
         value = scale3(value, weight_of_crossing(stack, crossed, material->medium));
         stack = crossed;
-        start = ray_start(hit.t, hit.primitive);
     }
     global float* radiance = PLANE(radiances, RADIANCE_R);
     store3(

@@ -96,7 +96,7 @@ kernel void generate_rays(
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, vec3(1.0f, 1.0f, 1.0f));
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = PDF_CERTAIN;
     store3(PLANE(radiances, RADIANCE_R), stride, slot, vec3(0.0f, 0.0f, 0.0f));
-    if (HAS_MEDIA) {
+    if (HAS_PASSAGES) {
         PLANE(path_media, MEDIUM_STACK)[slot] = as_float(params.camera_media);
         start_at_origin(path_media, stride, slot);
     }

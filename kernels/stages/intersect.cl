@@ -27,7 +27,7 @@ INLINE void store_hit(global float* hits, const size_t stride, const size_t slot
 
 // Behind the boundary that the ray passed last.
 INLINE RayStart load_start(global const float* path_media, const size_t stride, const size_t slot) {
-    if (!HAS_MEDIA) return at_origin();
+    if (!HAS_PASSAGES) return at_origin();
     return ray_start(
         max(PLANE(path_media, MEDIUM_T)[slot], 0.0f),
         as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]));

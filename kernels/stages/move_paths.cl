@@ -36,7 +36,7 @@ kernel void move_paths(
     for (int k = 0; k < RADIANCE_PLANES; ++k) PLANE(radiances, k)[to] = PLANE(radiances, k)[from];
     const int id_planes = HAS_SPLITS ? ID_PLANES : ID_PLANES_UNSPLIT;
     for (int k = 0; k < id_planes; ++k) PLANE(ids, k)[to] = PLANE(ids, k)[from];
-    const int medium_planes = HAS_MEDIA ? MEDIUM_PLANES_USED : 0;
+    const int medium_planes = HAS_PASSAGES ? MEDIUM_PLANES_USED : 0;
     for (int k = 0; k < medium_planes; ++k) PLANE(path_media, k)[to] = PLANE(path_media, k)[from];
     const int branch_planes =
         HAS_SPLITS ? (int)(BRANCH_PLANES_USED * BRANCH_LEVELS * params.split_depth) : 0;

@@ -70,8 +70,11 @@ kernel void pass_boundary(
         const int passed = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]) != NO_BOUNDARY;
         const int sends_back = HAS_CONTACTS | ((material->boundary == BOUNDARY_OPAQUE) &
                                                (material->transmission == 0.0f));
+        const float behind = PLANE(path_media, MEDIUM_STACK)[slot];
         if (touch & passed & sends_back)
             PLANE(path_media, MEDIUM_STACK)[slot] = PLANE(path_media, MEDIUM_BEFORE)[slot];
+        // a ray that pass_walls lets through goes on in these
+        if (HAS_SMOOTH_WALLS & HAS_CONTACTS) PLANE(path_media, MEDIUM_BEFORE)[slot] = behind;
         return;
     }
     pass(

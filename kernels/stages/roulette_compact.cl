@@ -54,7 +54,7 @@ kernel void roulette_compact(
     survival = params.roulette == 1 ? min(1.0f, carried * (1.0f / ROULETTE_BELOW)) : survival;
     survival = params.roulette == 2 ? params.survival : survival;
     // once a scattering, not once a boundary
-    if (HAS_MEDIA) survival = primitive == HIT_BOUNDARY ? 1.0f : survival;
+    if (HAS_PASSAGES) survival = primitive == HIT_BOUNDARY ? 1.0f : survival;
     const uint branch = HAS_SPLITS ? PLANE(ids, ID_BRANCH)[slot] : 0;
     const uint dimension = PAIR_FIRST + scattering * SCATTERING_PAIRS + PAIR_ROULETTE;
     // chosen, because LLVM 18's SLP pass joins this hash with that of the index: nothing is
@@ -66,7 +66,8 @@ kernel void roulette_compact(
                   PLANE(ids, ID_SEED)[slot], HAS_SPLITS ? hash_pair(dimension, branch) : dimension);
     const float u = unit_float(hash_pair(seed, PLANE(ids, ID_INDEX)[slot]));
     // a NaN throughput survives, to be found and counted at the end of the path
-    const int over = HAS_MEDIA ? (primitive == HIT_MISS) | (primitive == HIT_ENDED) : primitive < 0;
+    const int over =
+        HAS_PASSAGES ? (primitive == HIT_MISS) | (primitive == HIT_ENDED) : primitive < 0;
     const int dies = !over && u >= survival;
     const int ends = over || dies;
     store3(

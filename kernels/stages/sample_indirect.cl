@@ -98,5 +98,5 @@ kernel void sample_indirect(
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = pdf_w;
     PLANE(ids, ID_SCATTERING)[slot] = scattering + (continues ? 1 : 0);
-    if (HAS_MEDIA) start_at_origin(path_media, stride, slot);
+    if (HAS_PASSAGES) start_at_origin(path_media, stride, slot);
 }

@@ -6,6 +6,8 @@ namespace wavepath {
 
 namespace {
 
+constexpr float mirror_alpha = 1e-3F;  // kernels/materials/ggx.cl, MIRROR_ALPHA
+
 float dielectric_f0(const Material& material, std::size_t channel) {
     if (material.ior == 0) return 1;
     const float ratio = (material.ior - 1) / (material.ior + 1);
@@ -53,9 +55,15 @@ DeviceMaterial device_material(const Material& material, uint32_t medium) {
 }
 
 bool refracts_roughly(const Material& material) {
-    constexpr float mirror_alpha = 1e-3F;  // kernels/materials/ggx.cl, MIRROR_ALPHA
     return material.boundary == Boundary::dielectric &&
            material.roughness * material.roughness >= mirror_alpha;
+}
+
+bool may_pass_straight(const Material& material) {
+    const bool is_smooth = material.roughness * material.roughness < mirror_alpha ||
+                           material.has(TEXTURE_METALLIC_ROUGHNESS);
+    return material.boundary == Boundary::opaque && material.transmission > 0 &&
+           (material.metallic < 1 || material.has(TEXTURE_METALLIC_ROUGHNESS)) && is_smooth;
 }
 
 bool reflects_specularly(const Material& material) {

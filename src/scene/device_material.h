@@ -16,6 +16,9 @@ bool has_tint(const Material& material);
 // Whether it is a boundary of microfacets that refract.
 bool refracts_roughly(const Material& material);
 
+// Whether it is a thin wall that may, at some point, be smooth: light goes straight through it.
+bool may_pass_straight(const Material& material);
+
 // Whether it has a lobe besides the Lambertian.
 bool reflects_specularly(const Material& material);
 

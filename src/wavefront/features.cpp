@@ -25,6 +25,7 @@ std::string Features::defines() const {
     text += fmt::format("#define TEXTURE_PAGE_WORDS {}u\n", texture_page_words);
     define("HAS_SPECULAR", specular);
     define("HAS_TRANSMISSION", transmission);
+    define("HAS_SMOOTH_WALLS", smooth_walls);
     define("HAS_AREA_LIGHTS", area_lights);
     define("HAS_PUNCTUAL_LIGHTS", punctual_lights);
     define("HAS_ENVIRONMENT", environment);
@@ -82,6 +83,7 @@ Features features_of(
             f.emission_textures ||
             (material.emits() && (material.has(TEXTURE_EMISSION) || material.unlit));
         f.transmission = f.transmission || material.transmission > 0;
+        f.smooth_walls = f.smooth_walls || may_pass_straight(material);
         f.alpha = f.alpha || material.alpha_mode != AlphaMode::opaque;
         f.tinted_boundaries =
             f.tinted_boundaries || (material.boundary == Boundary::index_matched &&

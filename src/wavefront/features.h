@@ -30,6 +30,7 @@ struct Features {
     uint64_t texture_page_words = 0;
     bool specular = false;
     bool transmission = false;
+    bool smooth_walls = false;  // that light goes straight through
     bool area_lights = false;
     bool punctual_lights = false;
     bool environment = false;
@@ -53,6 +54,8 @@ struct Features {
     bool ray_packets = false;    // of stream_rays, eight at a time against a small mesh
 
     bool shading_normals() const { return vertex_normals || normal_maps; }
+    // Surfaces that a ray may pass as the same ray.
+    bool passages() const { return media || smooth_walls; }
 
     // The #define lines that kernels/shared/features.h expects.
     std::string defines() const;

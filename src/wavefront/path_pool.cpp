@@ -17,7 +17,7 @@ uint32_t surface_planes(const Features& features) {
 }
 
 uint32_t medium_planes(const Features& features) {
-    if (!features.media) return 0;
+    if (!features.passages()) return 0;
     return features.contacts ? MEDIUM_PLANES : MEDIUM_PLANES_APART;
 }
 

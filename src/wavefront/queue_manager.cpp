@@ -35,8 +35,10 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
     if (features.area_lights) names.emplace_back("shade_emission");
     if (features.sample_lights)
         names.insert(
-            names.end(), {"direct_light", features.media ? "connect_through_media" : "occlusion"});
+            names.end(),
+            {"direct_light", features.passages() ? "connect_through_media" : "occlusion"});
     if (features.media) names.insert(names.end(), {"sample_distance", "pass_boundary"});
+    if (features.smooth_walls) names.emplace_back("pass_walls");
     if (features.contacts) names.emplace_back("find_contacts");
     if (features.dielectrics) names.emplace_back("refract_boundary");
     if (features.media_scatter) names.emplace_back("scatter_medium");
@@ -85,28 +87,30 @@ QueueManager::QueueManager(
           features.textures, program, "apply_textures", groups.streaming, profile)),
       pass_boundary_(stage_if<decltype(pass_boundary_)::value_type>(
           features.media, program, "pass_boundary", groups.streaming, profile)),
-      first_hit_(program, "first_hit", groups.streaming, profile),
       shade_miss_(stage_if<decltype(shade_miss_)::value_type>(
           features.environment, program, "shade_miss", groups.streaming, profile)),
       shade_emission_(stage_if<decltype(shade_emission_)::value_type>(
           features.area_lights, program, "shade_emission", groups.streaming, profile)),
-      refract_boundary_(stage_if<decltype(refract_boundary_)::value_type>(
-          features.dielectrics, program, "refract_boundary", groups.streaming, profile)),
       direct_light_(stage_if<decltype(direct_light_)::value_type>(
           features.sample_lights, program, "direct_light", groups.streaming, profile)),
       occlusion_(stage_if<decltype(occlusion_)::value_type>(
-          features.sample_lights && !features.media,
+          features.sample_lights && !features.passages(),
           program,
           "occlusion",
           features.rays_per_item > 1 ? 1 : groups.traversal,
           profile,
           features.rays_per_item)),
       connect_through_media_(stage_if<decltype(connect_through_media_)::value_type>(
-          features.sample_lights && features.media,
+          features.sample_lights && features.passages(),
           program,
           "connect_through_media",
           groups.traversal,
           profile)),
+      pass_walls_(stage_if<decltype(pass_walls_)::value_type>(
+          features.smooth_walls, program, "pass_walls", groups.streaming, profile)),
+      first_hit_(program, "first_hit", groups.streaming, profile),
+      refract_boundary_(stage_if<decltype(refract_boundary_)::value_type>(
+          features.dielectrics, program, "refract_boundary", groups.streaming, profile)),
       sample_indirect_(program, "sample_indirect", groups.streaming, profile),
       scatter_medium_(stage_if<decltype(scatter_medium_)::value_type>(
           features.media_scatter, program, "scatter_medium", groups.streaming, profile)),
@@ -160,8 +164,6 @@ bool QueueManager::render(
             pass_boundary_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
                 pool_.surfaces, pool_.media, pool_.hits, pool_.throughputs);
-        first_hit_.launch(
-            device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
         if (shade_miss_)
             shade_miss_->launch(
                 device_, slots, params_, slots, scene_.environment, pool_.rays, pool_.hits,
@@ -186,6 +188,12 @@ bool QueueManager::render(
                 device_, slots, params_, slots, scene_.nodes, scene_.blocks, scene_.triangles,
                 scene_.materials, scene_.media, scene_.textures, pool_.shadows, pool_.ids,
                 pool_.radiances, pool_.fates);
+        if (pass_walls_)
+            pass_walls_->launch(
+                device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,
+                pool_.surfaces, pool_.ids, pool_.media, pool_.hits, pool_.throughputs);
+        first_hit_.launch(
+            device_, slots, params_, slots, pool_.hits, pool_.surfaces, pool_.ids, pool_.radiances);
         if (refract_boundary_)
             refract_boundary_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.media,

@@ -169,7 +169,6 @@ class QueueManager {
         apply_textures_;
     std::optional<Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats, Floats, Floats>>
         pass_boundary_;
-    Stage<Params, cl_uint, Floats, Floats, Uints, Floats> first_hit_;
     std::optional<Stage<Params, cl_uint, Map, Floats, Floats, Floats, Floats>> shade_miss_;
     std::optional<Stage<
         Params,
@@ -184,19 +183,6 @@ class QueueManager {
         Floats,
         Floats>>
         shade_emission_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Floats,
-        Materials,
-        Media,
-        Floats,
-        Floats,
-        Floats,
-        Floats,
-        Floats,
-        Uints>>
-        refract_boundary_;
     std::optional<Stage<
         Params,
         cl_uint,
@@ -241,6 +227,23 @@ class QueueManager {
         Floats,
         Fates>>
         connect_through_media_;
+    std::optional<
+        Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Uints, Floats, Floats, Floats>>
+        pass_walls_;
+    Stage<Params, cl_uint, Floats, Floats, Uints, Floats> first_hit_;
+    std::optional<Stage<
+        Params,
+        cl_uint,
+        Floats,
+        Materials,
+        Media,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Floats,
+        Uints>>
+        refract_boundary_;
     Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats, Floats>
         sample_indirect_;
     std::optional<

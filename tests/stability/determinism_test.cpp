@@ -135,6 +135,31 @@ TEST(Determinism, OfPacketsAndSingleRays) {
         }
 }
 
+// Rays go on behind smooth walls alike, however they are traced.
+TEST(Determinism, OfRaysThatPassWalls) {
+    Scene scene = room();
+    Material window = dielectric(grey(0.9F), 0);
+    window.transmission = 0.8F;
+    for (const double z : {0.1, 0.3}) add_square(scene, window, {0, 0, z}, {0.2, 0, 1}, 1.5);
+    RenderSettings settings = uneven();
+    settings.pool = 1000;
+    for (const uint32_t splits : {1U, 3U}) {
+        settings.splits.reflections = splits;
+        const RenderResult packets = render_scene(scene, settings);
+        ASSERT_LE(packets.triangles, SMALL_MESH_TRIANGLES);
+        Scene single = scene;
+        single.materials[1].alpha_mode = AlphaMode::mask;
+        single.materials[1].alpha_cutoff = 0.5F;
+        expect_same_bits(packets, render_scene(single, settings));
+    }
+    add_icosphere(scene, lambert(grey(0.6F)), {0.4, -0.4, -0.3}, 0.4, 5);
+    const RenderResult stream = render_scene(scene, settings);
+    ASSERT_GE(stream.bvh_nodes, 1024U);
+    settings.pool = 100;
+    settings.work_groups = {16, 64};
+    expect_same_bits(stream, render_scene(scene, settings));
+}
+
 TEST(Determinism, OfTwoSeedsTheyDiffer) {
     RenderSettings settings = uneven();
     settings.seed = 2;
