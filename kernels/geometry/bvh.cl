@@ -8,12 +8,20 @@
 #include "geometry/surface_texture.cl"
 #include "geometry/triangle.cl"
 #include "shared/features.h"
+#include "shared/path.h"
 
 typedef struct {
     float t;        // in lengths of the ray's direction
     float u, v;     // barycentrics of corners 1 and 2
     int primitive;  // triangle id in scene order, -1: none
 } Hit;
+
+INLINE void store_hit(global float* hits, const size_t stride, const size_t slot, const Hit* hit) {
+    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(hit->primitive);
+    PLANE(hits, HIT_T)[slot] = hit->t;
+    PLANE(hits, HIT_U)[slot] = hit->u;
+    PLANE(hits, HIT_V)[slot] = hit->v;
+}
 
 // A ray against slabs: t = plane * inverse + near (or far). The normalised scene lies within 0.5 of
 // the origin, so everything is at most reach = max|o| + 0.5 away along an axis. Rounding moves a

@@ -49,6 +49,14 @@ INLINE Interaction find_interaction(
     return r;
 }
 
+// Whether the face of the triangle that a ray of this direction meets emits.
+INLINE int emits_towards(
+    global const float* triangle, global const DeviceMaterial* materials, const Vec3 direction) {
+    const int emits = as_uint(triangle[TRIANGLE_LIGHT]) != NO_LIGHT;
+    const int front = dot3(triangle_cross(triangle), direction) < 0.0f;
+    return emits & (front | (materials[as_int(triangle[TRIANGLE_MATERIAL])].double_sided != 0));
+}
+
 // The lobes of a material whose base colour at the point is `base`.
 INLINE Surface material_surface(global const DeviceMaterial* material, const Vec3 base) {
     Surface s;

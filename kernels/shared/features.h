@@ -66,7 +66,13 @@
 #define TINTED_BOUNDARIES 1  // some index-matched boundary has a base colour
 #endif
 #ifndef HAS_CONTACTS
-#define HAS_CONTACTS 1  // something touches such a boundary
+#define HAS_CONTACTS 1  // something touches a refracting boundary, a thin wall or a lamp
+#endif
+#ifndef HAS_LAMP_CONTACTS
+#define HAS_LAMP_CONTACTS 1  // something touches a lamp
+#endif
+#ifndef LAMPS_ON_LAMPS
+#define LAMPS_ON_LAMPS 1  // and shines to the same side
 #endif
 #ifndef ROUGH_DIELECTRICS
 #define ROUGH_DIELECTRICS 1  // some boundary refracts by microfacets

@@ -127,16 +127,18 @@ enum ShadowPlane {
     SHADOW_DIRECTION_X,  // not unit: the light lies at t = 1
     SHADOW_DIRECTION_Y,
     SHADOW_DIRECTION_Z,
-    SHADOW_T_MAX,  // where the search for what is in the way ends: 1, or with TINTED_BOUNDARIES
-                   // behind the triangle that is the light, for boundaries that touch it; 0:
+    SHADOW_T_MAX,  // where the search for what is in the way ends: 1, or with TINTED_BOUNDARIES or
+                   // LAMPS_ON_LAMPS behind the triangle that is the light, for what touches it; 0:
                    // nothing pending
     SHADOW_R,      // radiance it brings if nothing is in the way
     SHADOW_G,
     SHADOW_B,
     SHADOW_MEDIA,  // (uint bits) MEDIUM_STACK at its origin (only with HAS_MEDIA)
+    SHADOW_LAMP,   // (int bits) the triangle that is the light, or -1 (only with LAMPS_ON_LAMPS)
     SHADOW_PLANES
 };
 #define SHADOW_PLANES_CLEAR SHADOW_MEDIA
+#define SHADOW_PLANES_ALONE SHADOW_LAMP
 
 // ids (uint): which sample this is
 enum IdPlane {

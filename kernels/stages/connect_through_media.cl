@@ -9,6 +9,7 @@
 //
 // One work-item a slot.
 
+#include "geometry/shown_face.cl"
 #include "geometry/textured_surface.cl"
 #include "lights/connection.cl"
 #include "lights/punctual.cl"
@@ -86,7 +87,16 @@ kernel void connect_through_media(
         if (innermost > 0)
             tau = madd3(
                 tau, extinction(media + (int)innermost - 1), max(end - start.t, 0.0f) * length);
-        if (ends) break;
+        if (ends) {
+            const int lamp = LAMPS_ON_LAMPS ? as_int(PLANE(shadows, SHADOW_LAMP)[slot]) : -1;
+            if (LAMPS_ON_LAMPS && lamp >= 0 && hit.primitive >= 0) {
+                const Hit shown =
+                    shown_face(nodes, blocks, &cover, materials, origin, direction, length, hit);
+                triangle = triangles + (size_t)TRIANGLE_FLOATS * shown.primitive;
+                if (shown.primitive < lamp && emits_towards(triangle, materials, direction)) return;
+            }
+            break;
+        }
         start = ray_start(hit.t, hit.primitive);
         if (is_wall) {
             value = mul3(value, straight);

@@ -172,7 +172,7 @@ kernel void direct_light(
     t_max *= value.x + value.y + value.z <= 0.0f ? 0.0f : 1.0f;
     const Vec3 origin = select3(in_medium, p, leave(p, scale3(ng, side)));
     const Vec3 to_light = sub3(s.p, origin);
-    if (TINTED_BOUNDARIES && HAS_AREA_LIGHTS) {
+    if ((TINTED_BOUNDARIES || LAMPS_ON_LAMPS) && HAS_AREA_LIGHTS) {
         const float reach = 1.0f + RAY_OFFSET / LEAST_COSINE / sqrt(dot3(to_light, to_light));
         const int to_triangle = (t_max > 0.0f) & (light->kind == LIGHT_TRIANGLE);
         t_max = to_triangle ? reach : t_max;
@@ -181,5 +181,7 @@ kernel void direct_light(
     store3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot, to_light);
     PLANE(shadows, SHADOW_T_MAX)[slot] = t_max;
     store3(PLANE(shadows, SHADOW_R), stride, slot, value);
+    if (LAMPS_ON_LAMPS) PLANE(shadows, SHADOW_LAMP)
+    [slot] = as_float(light->kind == LIGHT_TRIANGLE ? (int)light->primitive : -1);
     if (HAS_MEDIA) PLANE(shadows, SHADOW_MEDIA)[slot] = as_float(side < 0.0f ? crossed : stack);
 }

@@ -18,13 +18,6 @@
 #include "shared/path.h"
 #include "shared/scene.h"
 
-INLINE void store_hit(global float* hits, const size_t stride, const size_t slot, const Hit* hit) {
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(hit->primitive);
-    PLANE(hits, HIT_T)[slot] = hit->t;
-    PLANE(hits, HIT_U)[slot] = hit->u;
-    PLANE(hits, HIT_V)[slot] = hit->v;
-}
-
 // Behind the boundary that the ray passed last.
 INLINE RayStart load_start(global const float* path_media, const size_t stride, const size_t slot) {
     if (!HAS_PASSAGES) return at_origin();

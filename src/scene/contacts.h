@@ -1,9 +1,11 @@
-// Where surfaces touch glass: refracting boundaries and thin walls.
+// Where surfaces touch glass, which are refracting boundaries and thin walls, or lamps.
 #pragma once
 
 #include "scene/bvh_builder.h"
 #include "scene/normalise.h"
 #include "scene/scene.h"
+
+#include <vector>
 
 namespace wavepath {
 
@@ -12,5 +14,18 @@ namespace wavepath {
 // Faces that cross at more than half a degree do not count: they are that close on a line alone;
 // nor do those side by side.
 bool has_contacts(const Scene& scene, const NormalisedScene& geometry, const Bvh& bvh);
+
+// The same of triangles that emit.
+struct LampContacts {
+    bool surfaces = false;  // something opaque touches one
+    bool lamps = false;     // something that emits to the same side does
+};
+
+// `triangle_lights`: LightTables::triangle_lights.
+LampContacts lamp_contacts(
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    const std::vector<uint32_t>& triangle_lights,
+    const Bvh& bvh);
 
 }  // namespace wavepath

@@ -35,6 +35,8 @@ std::string Features::defines() const {
     define("HAS_MATCHED_MEDIA", matched_media);
     define("TINTED_BOUNDARIES", tinted_boundaries);
     define("HAS_CONTACTS", contacts);
+    define("HAS_LAMP_CONTACTS", lamp_contacts);
+    define("LAMPS_ON_LAMPS", lamps_on_lamps);
     define("ROUGH_DIELECTRICS", rough_dielectrics);
     define("MEDIA_SCATTER", media_scatter);
     text += fmt::format("#define DISTANCES {}\n", static_cast<int>(distances));

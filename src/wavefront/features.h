@@ -40,7 +40,9 @@ struct Features {
     bool dielectrics = false;        // boundaries that refract
     bool matched_media = false;      // besides index-matched ones
     bool tinted_boundaries = false;  // of index-matched ones
-    bool contacts = false;           // and are touched; the renderer's to find out
+    bool contacts = false;        // something touches them or a lamp; the renderer's to find out,
+    bool lamp_contacts = false;   // a lamp,
+    bool lamps_on_lamps = false;  // and itself shines to the same side
     bool rough_dielectrics = false;  // by microfacets
     Distances distances = Distances::exponential;
     bool phase_directions = true;
@@ -56,6 +58,8 @@ struct Features {
     bool shading_normals() const { return vertex_normals || normal_maps; }
     // Surfaces that a ray may pass as the same ray.
     bool passages() const { return media || smooth_walls; }
+    // Connections have to know what they meet.
+    bool connections_by_hits() const { return passages() || lamps_on_lamps; }
 
     // The #define lines that kernels/shared/features.h expects.
     std::string defines() const;

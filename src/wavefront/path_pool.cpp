@@ -21,6 +21,12 @@ uint32_t medium_planes(const Features& features) {
     return features.contacts ? MEDIUM_PLANES : MEDIUM_PLANES_APART;
 }
 
+uint32_t shadow_planes(const Features& features) {
+    if (!features.sample_lights) return 0;
+    if (features.lamps_on_lamps) return SHADOW_PLANES;
+    return features.media ? SHADOW_PLANES_ALONE : SHADOW_PLANES_CLEAR;
+}
+
 }  // namespace
 
 PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& features)
@@ -31,12 +37,7 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
       surfaces(device, std::size_t{surface_planes(features)} * stride, "path pool"),
       throughputs(device, std::size_t{THROUGHPUT_PLANES} * stride, "path pool"),
       radiances(device, std::size_t{RADIANCE_PLANES} * stride, "path pool"),
-      shadows(
-          device,
-          features.sample_lights
-              ? std::size_t{features.media ? SHADOW_PLANES : SHADOW_PLANES_CLEAR} * stride
-              : 0,
-          "path pool"),
+      shadows(device, std::size_t{shadow_planes(features)} * stride, "path pool"),
       media(device, std::size_t{medium_planes(features)} * stride, "path pool"),
       branches(
           device,

@@ -35,8 +35,8 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
     if (features.area_lights) names.emplace_back("shade_emission");
     if (features.sample_lights)
         names.insert(
-            names.end(),
-            {"direct_light", features.passages() ? "connect_through_media" : "occlusion"});
+            names.end(), {"direct_light",
+                          features.connections_by_hits() ? "connect_through_media" : "occlusion"});
     if (features.media) names.insert(names.end(), {"sample_distance", "pass_boundary"});
     if (features.smooth_walls) names.emplace_back("pass_walls");
     if (features.contacts) names.emplace_back("find_contacts");
@@ -94,14 +94,14 @@ QueueManager::QueueManager(
       direct_light_(stage_if<decltype(direct_light_)::value_type>(
           features.sample_lights, program, "direct_light", groups.streaming, profile)),
       occlusion_(stage_if<decltype(occlusion_)::value_type>(
-          features.sample_lights && !features.passages(),
+          features.sample_lights && !features.connections_by_hits(),
           program,
           "occlusion",
           features.rays_per_item > 1 ? 1 : groups.traversal,
           profile,
           features.rays_per_item)),
       connect_through_media_(stage_if<decltype(connect_through_media_)::value_type>(
-          features.sample_lights && features.passages(),
+          features.sample_lights && features.connections_by_hits(),
           program,
           "connect_through_media",
           groups.traversal,

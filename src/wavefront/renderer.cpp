@@ -228,8 +228,11 @@ RenderResult render(
     result.times.normalise = watch.lap();
     Bvh bvh = build_bvh(geometry.positions);
     if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
-    features.contacts =
-        (features.dielectrics || features.transmission) && has_contacts(scene, geometry, bvh);
+    const LampContacts at_lamps = lamp_contacts(scene, geometry, tables.triangle_lights, bvh);
+    features.lamp_contacts = at_lamps.surfaces;
+    features.lamps_on_lamps = at_lamps.lamps;
+    features.contacts = at_lamps.surfaces || ((features.dielectrics || features.transmission) &&
+                                              has_contacts(scene, geometry, bvh));
     result.times.bvh_build = watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
     // for memory together, and a small mesh is traced without its tree, in packets.

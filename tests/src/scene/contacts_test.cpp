@@ -1,5 +1,6 @@
 #include "scene/contacts.h"
 
+#include "scene/light_tables.h"
 #include "support/media.h"
 
 #include <gtest/gtest.h>
@@ -81,6 +82,36 @@ TEST(Contacts, AreFoundInLargeMeshes) {
     EXPECT_FALSE(touched(scene));
     add_icosphere(scene, glass(1.33), {0, 0, 0}, 1, 5);
     EXPECT_TRUE(touched(scene));
+}
+
+LampContacts lamp_contacts_of(const Scene& scene) {
+    const NormalisedScene geometry = normalise(scene);
+    const LightTables lights = build_light_tables(scene, geometry, LightChoice::power, false);
+    return lamp_contacts(scene, geometry, lights.triangle_lights, build_bvh(geometry.positions));
+}
+
+TEST(Contacts, OfLampsAreFoundInTheirPlane) {
+    const Material lamp = lambert(grey(0), grey(1));
+    const auto with = [&](const Material& other, double height, double facing) {
+        Scene scene = scene_named("lamp");
+        add_square(scene, other, {0, 0, height}, {0, 0, facing}, 4);
+        add_square(scene, lamp, {0, 0, 0}, {0, 0, -1}, 1);
+        return lamp_contacts_of(scene);
+    };
+    for (const double facing : {-1., 1.}) {
+        EXPECT_TRUE(with(lambert(grey(1)), 0, facing).surfaces);
+        EXPECT_TRUE(with(lambert(grey(1)), -3e-6, facing).surfaces);
+        EXPECT_FALSE(with(lambert(grey(1)), 1e-4, facing).surfaces);
+        EXPECT_FALSE(with(lambert(grey(1)), 0, facing).lamps);
+        EXPECT_TRUE(with(lamp, 0, facing).surfaces);
+        EXPECT_EQ(with(lamp, 0, facing).lamps, facing < 0) << "back to back they do not mix";
+        EXPECT_TRUE(with(lambert(grey(0), grey(1), true), 0, facing).lamps);
+    }
+    EXPECT_FALSE(with(boundary_of({}), 0, 1).surfaces) << "rays pass it";
+    Scene alone = scene_named("lamps side by side");
+    add_square(alone, lamp, {0, 0, 0}, {0, 0, 1}, 1);
+    add_square(alone, lamp, {1, 0, 0}, {0, 0, 1}, 1);
+    EXPECT_FALSE(lamp_contacts_of(alone).surfaces);
 }
 
 }  // namespace
