@@ -3,7 +3,8 @@
 // windows. Compensated sums [Kahan 1965]: 10^7 samples of a constant stay right to 1e-7. The
 // variance between batches is updated by Welford's recurrence, weighted [West 1979].
 //
-// reads: plan, cells, cell_flags
+// reads: plan, cells, cell_flags; the band of the film that holds the window, which is its pixels
+// [first_pixel, first_pixel + band_pixels)
 //
 // writes: film, film_flags
 //
@@ -32,13 +33,15 @@ kernel void fold_film(
     global const PlanRow* restrict plan,
     global const float* restrict cells,
     global const uint* restrict cell_flags,
+    const uint first_pixel,
+    const uint band_pixels,
     global float* restrict film,
     global uint* restrict film_flags) {
     const RenderParams params = *settings;
     const uint i = (uint)get_global_id(0);
     if (i >= params.window_pixels) return;
-    const size_t pixels = (size_t)params.width * params.height;
-    const uint pixel = params.first_pixel + i;
+    const size_t pixels = band_pixels;
+    const uint pixel = params.first_pixel - first_pixel + i;
     const uint passes = params.cells / params.window_pixels;
 
     for (uint k = 0; k < SUM_PLANES; ++k) {

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstring>
 #include <random>
-#include <system_error>
 
 namespace wavepath {
 namespace fs = std::filesystem;
@@ -43,16 +42,30 @@ AtomicFile::~AtomicFile() {
     if (!temporary_.empty()) fs::remove(temporary_, ignored);
 }
 
-void AtomicFile::commit(std::string_view bytes) {
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size();
-    const bool closed = std::fclose(file_.release()) == 0;  // flushes what fwrite kept
-    std::error_code failure(written && closed ? 0 : errno, std::generic_category());
-    if (!failure) fs::rename(temporary_, path_, failure);
-    if (failure) {
+void AtomicFile::check(bool succeeded) {
+    if (!succeeded && !failure_) failure_.assign(errno, std::generic_category());
+    if (failure_)
         throw Error(
             "{}: cannot be written: {}; check space and rights in its folder or choose another",
-            path_.string(), failure.message());
-    }
+            path_.string(), failure_.message());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+    check(std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size());
+}
+
+void AtomicFile::seek(uint64_t position) {
+    check(fseeko(file_.get(), static_cast<off_t>(position), SEEK_SET) == 0);
+}
+
+uint64_t AtomicFile::position() const {
+    return static_cast<uint64_t>(ftello(file_.get()));
+}
+
+void AtomicFile::commit(std::string_view bytes) {
+    write(bytes);
+    check(std::fclose(file_.release()) == 0);  // flushes what fwrite kept
+    check(std::rename(temporary_.c_str(), path_.c_str()) == 0);
     temporary_.clear();
 }
 

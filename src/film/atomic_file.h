@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string_view>
+#include <system_error>
 
 namespace wavepath {
 
@@ -17,10 +19,19 @@ class AtomicFile {
     AtomicFile& operator=(const AtomicFile&) = delete;
     ~AtomicFile();
 
-    // Writes the whole content and gives the file its name, once. Throws Error where either fails.
+    // Writes at the file's position, or moves that to a byte of what is there. Throws Error where
+    // it fails; then commit() does too, for the sake of writers who drop exceptions.
+    void write(std::string_view bytes);
+    void seek(uint64_t position);
+    uint64_t position() const;
+
+    // Writes the last of the content and gives the file its name, once. Throws Error where that
+    // fails.
     void commit(std::string_view bytes);
 
   private:
+    void check(bool succeeded);  // throws Error if it, or anything before, did not
+
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
@@ -28,6 +39,7 @@ class AtomicFile {
     std::filesystem::path path_;
     std::filesystem::path temporary_;  // empty: nothing to remove
     std::unique_ptr<std::FILE, Close> file_;
+    std::error_code failure_;  // the first
 };
 
 }  // namespace wavepath

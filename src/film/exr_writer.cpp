@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStdIO.h>
@@ -19,9 +20,24 @@
 namespace wavepath {
 namespace {
 
-// The file is made in memory: Imf::OutputFile writes its line table in its destructor, which
-// swallows a failure.
-std::string encode(const Image& image) {
+// Imf::OutputFile writes its line table in its destructor, which swallows a failure: AtomicFile
+// keeps it.
+class AtomicStream : public Imf::OStream {
+  public:
+    AtomicStream(AtomicFile& file, const std::string& name)
+        : Imf::OStream(name.c_str()), file_(file) {}
+
+    void write(const char* bytes, int count) override {
+        file_.write({bytes, static_cast<std::size_t>(count)});
+    }
+    uint64_t tellp() override { return file_.position(); }
+    void seekp(uint64_t position) override { file_.seek(position); }
+
+  private:
+    AtomicFile& file_;
+};
+
+void encode(const Image& image, Imf::OStream& stream) {
     Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [name, value] : image.metadata)
@@ -36,13 +52,9 @@ std::string encode(const Image& image) {
         planes.insert(name, Imf::Slice::Make(Imf::FLOAT, data, header.dataWindow()));
     }
 
-    Imf::StdOSStream stream;
-    {
-        Imf::OutputFile file(stream, header);
-        file.setFrameBuffer(planes);
-        file.writePixels(static_cast<int>(image.height));
-    }
-    return stream.str();
+    Imf::OutputFile file(stream, header);
+    file.setFrameBuffer(planes);
+    file.writePixels(static_cast<int>(image.height));
 }
 
 Image decode(Imf::InputFile& file, const std::string& path) {
@@ -85,14 +97,16 @@ void check_writable(const std::filesystem::path& path) {
 
 void write_exr(const Image& image, const std::filesystem::path& path) {
     AtomicFile file(path);
-    std::string bytes;
+    AtomicStream stream(file, path.string());
     try {
-        bytes = encode(image);
+        encode(image, stream);
+    } catch (const Error&) {
+        throw;
     } catch (const std::exception& reason) {
         throw Error(
             "{}: cannot be written as OpenEXR: {}; please report it", path.string(), reason.what());
     }
-    file.commit(bytes);
+    file.commit({});
 }
 
 Image read_exr(const std::filesystem::path& path) {

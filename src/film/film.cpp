@@ -31,70 +31,131 @@ constexpr const char* sum_channels[SUM_PLANES - 1] = {
     "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"};
 constexpr const char* variance_channels[3] = {"variance.R", "variance.G", "variance.B"};
 
+// Of one band, 143 MiB: fewer than a window has in a large picture.
+constexpr std::size_t most_band_pixels = std::size_t{1} << 20U;
+
+std::vector<FilmBand> bands_of(const Device& device, std::size_t pixels) {
+    const std::size_t most = std::clamp<std::size_t>(
+        device.info.max_allocation / (FILM_PLANES * sizeof(cl_float)), 1, most_band_pixels);
+    std::vector<FilmBand> bands;
+    for (std::size_t first = 0; first < pixels; first += most) {
+        const std::size_t count = std::min(most, pixels - first);
+        bands.push_back(
+            {static_cast<uint32_t>(first), static_cast<uint32_t>(count),
+             zeros<cl_float>(device, FILM_PLANES * count),
+             zeros<cl_uint>(device, FILM_FLAGS * count)});
+    }
+    return bands;
+}
+
+// A band as the host reads it.
+class BandView {
+  public:
+    BandView(const Device& device, const FilmBand& band, uint64_t samples, uint32_t batches)
+        : pixels_(band.pixels),
+          planes_(band.planes.map(device)),
+          flags_(band.flags.map(device)),
+          samples_(static_cast<double>(samples)),
+          batches_(batches) {}
+
+    std::size_t pixels() const { return pixels_; }
+    cl_uint flag(std::size_t flag, std::size_t i) const { return flags_[flag * pixels_ + i]; }
+    double total(std::size_t plane, std::size_t i) const {
+        return double{planes_[(FILM_SUM + plane) * pixels_ + i]} -
+               planes_[(FILM_LOST + plane) * pixels_ + i];
+    }
+    double mean(std::size_t plane, std::size_t i) const { return total(plane, i) / samples_; }
+    double depth(std::size_t i) const {
+        const double hits = total(SUM_COVERAGE - SUM_R, i);
+        return hits > 0 ? total(SUM_DEPTH - SUM_R, i) / hits : 0;
+    }
+    // Of the mean of a colour channel; NaN below 2 batches.
+    double variance(std::size_t c, std::size_t i) const {
+        if (batches_ < 2) return std::numeric_limits<double>::quiet_NaN();
+        const double deviation = planes_[(FILM_DEVIATION + c) * pixels_ + i];
+        return deviation / (samples_ * (batches_ - 1));
+    }
+
+  private:
+    std::size_t pixels_;
+    MappedArray<cl_float> planes_;
+    MappedArray<cl_uint> flags_;
+    double samples_;
+    uint32_t batches_;
+};
+
+// Appends the band's pixels to the channels.
+void develop_band(const BandView& band, bool has_variance, Image& image) {
+    const auto append = [&](const char* name, const auto& value) {
+        std::vector<float>& channel = image.channels.at(name);
+        for (std::size_t i = 0; i < band.pixels(); ++i)
+            channel.push_back(static_cast<float>(value(i)));
+    };
+    for (std::size_t plane = 0; plane + 1 < SUM_PLANES; ++plane)
+        append(sum_channels[plane], [&](std::size_t i) {
+            return plane == SUM_DEPTH - SUM_R ? band.depth(i) : band.mean(plane, i);
+        });
+    for (std::size_t c = 0; c < 3; ++c)
+        append(variance_channels[c], [&](std::size_t i) {
+            return has_variance ? band.variance(c, i) : 0;
+        });
+}
+
+void count_nonfinite(const BandView& band, const FilmBand& place, uint32_t width, NonFinite& sum) {
+    for (std::size_t i = 0; i < band.pixels(); ++i) {
+        const cl_uint found = band.flag(FILM_NONFINITE, i);
+        if (found == 0) continue;
+        if (sum.samples == 0) {
+            const auto pixel = static_cast<uint32_t>(place.first_pixel + i);
+            sum = {0, pixel % width, pixel / width, band.flag(FILM_FIRST_NONFINITE, i)};
+        }
+        sum.samples += found;
+        for (std::size_t c = 0; c < 3; ++c)
+            if ((std::bit_cast<uint32_t>(static_cast<float>(band.mean(c, i))) & 0x7fffffffU) ==
+                NAN_OF_MEDIA)
+                sum.of_media = true;
+    }
+}
+
 }  // namespace
 
+const std::size_t Film::pixel_bytes = FILM_PLANES * sizeof(cl_float) + FILM_FLAGS * sizeof(cl_uint);
+
 Film::Film(const Device& device, uint32_t w, uint32_t h)
-    : width(w),
-      height(h),
-      planes(zeros<cl_float>(device, std::size_t{FILM_PLANES} * w * h)),
-      flags(zeros<cl_uint>(device, std::size_t{FILM_FLAGS} * w * h)) {}
+    : width(w), height(h), bands(bands_of(device, std::size_t{w} * h)) {}
 
-DevelopedFilm develop(const Device& device, const Film& film, uint64_t samples, uint32_t batches) {
-    const std::size_t pixels = std::size_t{film.width} * film.height;
-    const std::vector<cl_float> planes = film.planes.read(device);
-    const std::vector<cl_uint> flags = film.flags.read(device);
-    const auto total = [&](std::size_t plane, std::size_t i) {
-        return double{planes[(FILM_SUM + plane) * pixels + i]} -
-               planes[(FILM_LOST + plane) * pixels + i];
-    };
-    const auto n = static_cast<double>(samples);
-
-    DevelopedFilm out;
-    out.image.width = film.width;
-    out.image.height = film.height;
-    for (std::size_t plane = 0; plane + 1 < SUM_PLANES; ++plane) {
-        std::vector<float>& channel = out.image.channels[sum_channels[plane]];
-        channel.resize(pixels);
-        for (std::size_t i = 0; i < pixels; ++i)
-            channel[i] = static_cast<float>(total(plane, i) / n);
-    }
-    std::vector<float>& depth = out.image.channels["depth.Z"];
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const double hits = total(SUM_COVERAGE - SUM_R, i);
-        depth[i] = hits > 0 ? static_cast<float>(total(SUM_DEPTH - SUM_R, i) / hits) : 0;
-    }
-
+double relative_error(const Device& device, const Film& film, uint64_t samples, uint32_t batches) {
     double error = 0;
     std::size_t counted = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        std::vector<float>& channel = out.image.channels[variance_channels[c]];
-        channel.resize(pixels);
-        for (std::size_t i = 0; i < pixels; ++i) {
-            const double deviation = planes[(FILM_DEVIATION + c) * pixels + i];
-            const double variance = batches > 1 ? deviation / (n * (batches - 1))
-                                                : std::numeric_limits<double>::quiet_NaN();
-            channel[i] = batches > 1 ? static_cast<float>(variance) : 0;
-            const double mean = total(c, i) / n;
-            if (!std::isfinite(mean)) continue;
-            error += variance / (mean * mean + 0.01);
-            ++counted;
-        }
+    for (const FilmBand& part : film.bands) {
+        const BandView band(device, part, samples, batches);
+        // pixel by pixel, so that the sum does not depend on the bands
+        for (std::size_t i = 0; i < band.pixels(); ++i)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double mean = band.mean(c, i);
+                if (!std::isfinite(mean)) continue;
+                error += band.variance(c, i) / (mean * mean + 0.01);
+                ++counted;
+            }
     }
-    out.relative_error = std::sqrt(error / static_cast<double>(counted));
+    return std::sqrt(error / static_cast<double>(counted));
+}
 
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const cl_uint found = flags[FILM_NONFINITE * pixels + i];
-        if (found == 0) continue;
-        if (out.nonfinite.samples == 0) {
-            out.nonfinite.x = static_cast<uint32_t>(i % film.width);
-            out.nonfinite.y = static_cast<uint32_t>(i / film.width);
-            out.nonfinite.sample = flags[FILM_FIRST_NONFINITE * pixels + i];
+DevelopedFilm develop(const Device& device, Film film, uint64_t samples, uint32_t batches) {
+    DevelopedFilm out;
+    out.relative_error = relative_error(device, film, samples, batches);
+    out.image.width = film.width;
+    out.image.height = film.height;
+    const std::size_t pixels = std::size_t{film.width} * film.height;
+    for (const char* name : sum_channels) out.image.channels[name].reserve(pixels);
+    for (const char* name : variance_channels) out.image.channels[name].reserve(pixels);
+    for (FilmBand& part : film.bands) {
+        {
+            const BandView band(device, part, samples, batches);
+            develop_band(band, batches > 1, out.image);
+            count_nonfinite(band, part, film.width, out.nonfinite);
         }
-        out.nonfinite.samples += found;
-        for (const char* channel : {"R", "G", "B"})
-            if ((std::bit_cast<uint32_t>(out.image.channels[channel][i]) & 0x7fffffffU) ==
-                NAN_OF_MEDIA)
-                out.nonfinite.of_media = true;
+        part = {};
     }
     return out;
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -33,8 +32,8 @@ uint8_t encode_srgb(double linear) {
 void write_png(const Image& image, const std::filesystem::path& path, double exposure) {
     AtomicFile file(path);
     const std::size_t pixels = std::size_t{image.width} * image.height;
-    // stb_image_write counts bytes in int.
-    if (pixels > std::numeric_limits<int>::max() / 4) {
+    // stb_image_write counts bytes in int, and doubles its buffer of up to 3 a pixel.
+    if (pixels > std::size_t{1} << 28U) {
         throw Error(
             "{}: {} x {} is too large for PNG; write .exr", path.string(), image.width,
             image.height);

@@ -223,9 +223,12 @@ bool QueueManager::render(
         }
     }
     const bool whole = work.active == 0;
-    if (whole)
+    if (whole) {
+        const FilmBand& band = film.band_of(window.first_pixel);
         fold_film_.launch(
-            device_, window.pixels, params_, plan_, cells_, cell_flags_, film.planes, film.flags);
+            device_, window.pixels, params_, plan_, cells_, cell_flags_, band.first_pixel,
+            band.pixels, band.planes, band.flags);
+    }
     device_.queue.finish();
     profile_.collect();
     counts_.clear();

@@ -4,6 +4,7 @@
 #include "scene/camera.h"
 #include "scene/contacts.h"
 #include "scene/hidden_lights.h"
+#include "scene/host_memory.h"
 #include "scene/light_guide.h"
 #include "wavefront/sample_plan.h"
 
@@ -120,6 +121,19 @@ void check_splits(const RenderSettings& settings, bool media_scatter) {
             splits.stops, splits.directions, splits.reflections, settings.split_depth, paths, most);
 }
 
+// Before the film is made, for a CPU's memory is everybody's.
+void check_memory(const Device& device, uint64_t others, const RenderSettings& settings) {
+    constexpr auto mebibytes = [](uint64_t bytes) { return (bytes + (1U << 20U) - 1) >> 20U; };
+    const uint64_t film = uint64_t{Film::pixel_bytes} * settings.width * settings.height;
+    uint64_t there = device.info.global_memory;
+    if (device.info.is_cpu) there = std::min<uint64_t>(there, others + available_memory());
+    if (others + film > there)
+        throw Error(
+            "{} MiB of device memory needed, of which {} for the film, {} bytes a pixel; there are "
+            "{} MiB; use a smaller --size or --pool, or another --device",
+            mebibytes(others + film), mebibytes(film), Film::pixel_bytes, there >> 20U);
+}
+
 // PoCL compiles a kernel at its first launch: one short path through the whole chain, into a film
 // of its own, before the clock starts.
 void warm_up(
@@ -155,7 +169,7 @@ class Schedule {
     const SamplePlan& plan() const { return plan_; }
 
     // The next passes, to be rendered window by window.
-    std::vector<Window> next(double elapsed) {
+    std::vector<Window> next(const std::vector<FilmBand>& bands, double elapsed) {
         const double wanted = seconds_ > 0 ? std::clamp(seconds_ - elapsed, 0.0, 1.0) : 1.0;
         const double passes = rate_ > 0 ? wanted * rate_ : 1;
         const uint64_t fit = std::clamp<uint64_t>(max_cells_ / pixels_, 1, SamplePlan::most_rows);
@@ -163,10 +177,11 @@ class Schedule {
             plan_.take(std::min(fit, std::max(least_passes_, static_cast<uint64_t>(passes))));
         passes_ = rows.size();
         std::vector<Window> windows;
-        for (uint64_t first = 0; first < pixels_; first += max_cells_)
-            windows.push_back(
-                {static_cast<uint32_t>(first),
-                 static_cast<uint32_t>(std::min(pixels_ - first, max_cells_)), rows});
+        for (const FilmBand& band : bands)
+            for (uint64_t first = 0; first < band.pixels; first += max_cells_)
+                windows.push_back(
+                    {static_cast<uint32_t>(band.first_pixel + first),
+                     static_cast<uint32_t>(std::min(band.pixels - first, max_cells_)), rows});
         return windows;
     }
 
@@ -261,28 +276,26 @@ RenderResult render(
     const uint64_t units = SamplePlan(settings.samples, pixels).most_passes() * pixels;
     const uint32_t wanted = settings.pool > 0 ? settings.pool : device.info.default_pool;
     const auto pool = static_cast<uint32_t>(std::min<uint64_t>(wanted, units));
-    const uint64_t max_cells = std::min(std::max(uint64_t{1} << 20U, uint64_t{4} * pool), units);
+    const uint64_t max_cells = std::min(
+        {std::max(uint64_t{1} << 20U, uint64_t{4} * pool), units,
+         device.info.max_allocation / (CELL_FLOATS * sizeof(cl_float))});
     QueueManager queues(
         device, program, features, buffers, pool, max_cells, settings.work_groups,
         settings.count_lag.value_or(device.info.is_cpu ? 0 : 1), profile);
+    check_memory(device, buffers.bytes() + queues.bytes(), settings);
     Film film(device, settings.width, settings.height);
-    const uint64_t needed = buffers.bytes() + queues.bytes() + film.bytes();
-    if (needed > device.info.global_memory)
-        throw Error(
-            "{} MiB of device memory needed, {} MiB there; use a smaller --size or --pool, or "
-            "another --device",
-            (needed + (uint64_t{1} << 20U) - 1) >> 20U, device.info.global_memory >> 20U);
+    result.film_bytes = film.bytes();
     // last, so that no buffer takes the place of one it freed: oclgrind mixes them up
     warm_up(device, program, features, buffers, settings, params);
     result.times.program_build = watch.lap();
 
     Schedule schedule(settings, pool, max_cells);
     const SamplePlan& plan = schedule.plan();
-    const auto relative_error = [&] {
-        return develop(device, film, result.samples, result.batches).relative_error;
+    const auto error_so_far = [&] {
+        return relative_error(device, film, result.samples, result.batches);
     };
     while (!plan.done()) {
-        const std::vector<Window> windows = schedule.next(result.times.render);
+        const std::vector<Window> windows = schedule.next(film.bands, result.times.render);
         // Once one window is in the film, the passes have to be finished everywhere.
         const bool whole = queues.render(windows.front(), params, film, stop);
         for (std::size_t i = 1; whole && i < windows.size(); ++i)
@@ -299,15 +312,14 @@ RenderResult render(
             const RayCounts rays = queues.ray_counts();
             progress(
                 {result.samples, settings.samples, result.times.render,
-                 rays.closest + rays.connections, relative_error});
+                 rays.closest + rays.connections, error_so_far});
         }
         const bool timed_out = settings.seconds > 0 && result.times.render >= settings.seconds;
-        const bool on_target =
-            settings.target_error > 0 && relative_error() < settings.target_error;
+        const bool on_target = settings.target_error > 0 && error_so_far() < settings.target_error;
         if (result.interrupted || timed_out || on_target) break;
     }
 
-    result.film = develop(device, film, result.samples, result.batches);
+    result.film = develop(device, std::move(film), result.samples, result.batches);
     if (result.film.nonfinite.of_media)
         result.warnings.push_back(fmt::format(
             "{}: samples are not finite where more than 4 media lie around one another, "
@@ -336,7 +348,6 @@ RenderResult render(
     result.texture_bytes = buffers.textures.bytes();
     result.texture_pages = textures.pages();
     result.pool_bytes = queues.bytes();
-    result.film_bytes = film.bytes();
     return result;
 }
 

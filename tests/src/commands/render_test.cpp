@@ -237,10 +237,11 @@ TEST_F(RenderCommand, RefusesMoreMemoryThanTheDeviceHas) {
         EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
         return outcome.words;
     };
-    EXPECT_THAT(refusal(" --size 2000x2000"), HasSubstr("film: 519 MiB needed"));
     EXPECT_THAT(
-        refusal(" --size 1300x1300 --pool 1600000"),
-        HasSubstr("units of work: 293 MiB needed in one buffer, the device allows 256 MiB"));
+        refusal(" --size 4000x4000"), HasSubstr("of which 2198 for the film, 144 bytes a pixel"));
+    EXPECT_THAT(
+        refusal(" --size 1300x1300 --pool 16000000"),
+        HasSubstr("needed in one buffer, the device allows 256 MiB"));
 }
 
 TEST_F(RenderCommand, RefusesToReplaceWhatTheSceneIsMadeOf) {

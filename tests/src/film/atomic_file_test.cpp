@@ -68,6 +68,30 @@ TEST(AtomicFile, KeepsTheOldFileWhereTheDiskIsFull) {
     }
 }
 
+TEST(AtomicFile, IsWrittenInPiecesAndOverWhatIsThere) {
+    const TemporaryFolder folder;
+    AtomicFile file(folder / "a.bin");
+    file.write("one two");
+    EXPECT_EQ(file.position(), 7u);
+    file.seek(4);
+    file.write("six");
+    file.commit(".");
+    EXPECT_EQ(folder.read("a.bin"), "one six.");
+}
+
+// As OpenEXR does at the end of a file.
+TEST(AtomicFile, KeepsAFailureThatItsWriterDropped) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("a.bin", "old");
+    AtomicFile file(path);
+    {
+        const FileSizeLimit limit(10);
+        EXPECT_THROW(file.write(std::string(std::size_t{1} << 20, 'x')), Error);
+    }
+    EXPECT_THAT(error_of([&] { file.commit({}); }), HasSubstr("File too large"));
+    EXPECT_EQ(folder.read("a.bin"), "old");
+}
+
 TEST(AtomicFile, SaysThatItsFolderIsGone) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "gone");
