@@ -12,6 +12,7 @@ namespace wavepath {
 namespace {
 
 volatile sig_atomic_t first_signal = 0;
+bool under_nohup = false;
 
 constexpr int stopping_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE, SIGXFSZ};
 
@@ -55,7 +56,10 @@ int interrupt_signal() {
     return first_signal;
 }
 
-void survive_failed_writes() {
+void prepare_signals() {
+    struct sigaction before {};
+    sigaction(SIGHUP, nullptr, &before);
+    under_nohup = before.sa_handler == SIG_IGN;
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
 }
@@ -65,11 +69,8 @@ InterruptGuard::InterruptGuard() {
     struct sigaction action {};
     action.sa_sigaction = on_signal;
     action.sa_flags = SA_SIGINFO | SA_RESTART;
-    struct sigaction before {};
-    for (const int signal : stopping_signals) {
-        sigaction(signal, &action, &before);
-        if (signal == SIGHUP && before.sa_handler == SIG_IGN) sigaction(signal, &before, nullptr);
-    }
+    for (const int signal : stopping_signals) sigaction(signal, &action, nullptr);
+    if (under_nohup) signal(SIGHUP, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {

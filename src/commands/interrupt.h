@@ -11,9 +11,10 @@ struct Interrupted {
 // The signal that asked the last InterruptGuard to stop; 0: none did.
 int interrupt_signal();
 
-// Writing to a pipe that nobody reads or beyond the limit on file sizes fails from now on, where
-// SIGPIPE and SIGXFSZ ended the process.
-void survive_failed_writes();
+// To be called before drivers are loaded, which set handlers of their own. Writing to a pipe that
+// nobody reads or beyond the limit on file sizes fails from then on, where SIGPIPE and SIGXFSZ
+// ended the process.
+void prepare_signals();
 
 // While it lives SIGINT, SIGTERM, SIGHUP and SIGXCPU set a flag, and so do a SIGPIPE and a SIGXFSZ
 // that come from elsewhere; a second Ctrl-C ends the process at once. SIGHUP stays ignored under

@@ -14,7 +14,7 @@ namespace wavepath {
 namespace {
 
 void run(const RenderOptions& options, const Outputs& outputs) {
-    survive_failed_writes();
+    prepare_signals();
     if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
     check_outputs(outputs);
     check_apart(outputs, {options.scene, options.environment});

@@ -23,13 +23,15 @@ RenderResult grey_picture() {
 
 TEST(Outputs, WhatCanBeWrittenIsWrittenAndTheRestIsSaidInALineEach) {
     const TemporaryFolder folder;
+    const Device device;
+    const RenderJob job;
     RenderResult result = grey_picture();
     Outputs outputs;
     outputs.images = {
         folder / "gone/a.exr", folder / "b.exr", folder / "gone/c.png", folder / "d.png"};
     outputs.json = folder / "e.json";
     testing::internal::CaptureStdout();  // the logger of tests
-    EXPECT_THROW(write_outputs({}, {}, result, outputs), OutputFailed);
+    EXPECT_THROW(write_outputs(device, job, result, outputs), OutputFailed);
     const std::string words = testing::internal::GetCapturedStdout();
     for (const char* name : {"b.exr", "d.png", "e.json"})
         EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
@@ -42,14 +44,16 @@ TEST(Outputs, WhatCanBeWrittenIsWrittenAndTheRestIsSaidInALineEach) {
 
 TEST(Outputs, OfAnInterruptedRenderAreWrittenFirst) {
     const TemporaryFolder folder;
+    const Device device;
+    const RenderJob job;
     RenderResult result = grey_picture();
     result.interrupted = true;
     Outputs outputs;
     outputs.images = {folder / "a.png"};
-    EXPECT_THROW(write_outputs({}, {}, result, outputs), Interrupted);
+    EXPECT_THROW(write_outputs(device, job, result, outputs), Interrupted);
     EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
     outputs.images = {folder / "gone/a.png"};
-    EXPECT_THROW(write_outputs({}, {}, result, outputs), OutputFailed);
+    EXPECT_THROW(write_outputs(device, job, result, outputs), OutputFailed);
 }
 
 TEST(Progress, GoesOnWhereNobodyListens) {
