@@ -35,6 +35,9 @@
 #ifndef HAS_SPECULAR
 #define HAS_SPECULAR 1  // some material has a microfacet or mirror lobe
 #endif
+#ifndef LAYERS_CONSERVE
+#define LAYERS_CONSERVE 1  // what is below a dielectric's specular layer gets what that leaves
+#endif
 #ifndef HAS_TRANSMISSION
 #define HAS_TRANSMISSION 1  // some material lets light through (thin walls)
 #endif

@@ -42,9 +42,10 @@ kernel void pass_walls(
     const Vec3 straight = gltf_straight_through(surface, cosine);
     const float through = max_component3(straight);
     if (through <= 0.0f) return;
-    const Reflectance scattered = gltf_reflectance(surface, cosine);
+    const Reflectance scattered = lobe_albedos(surface, vec3(0.0f, 0.0f, cosine));
+    const float base = max_component3(surface.base);
     const float pmf = through / (through + max_component3(scattered.specular) +
-                                 max_component3(scattered.diffuse));
+                                 base * (scattered.diffuse + scattered.spread));
 
     // every wall on a ray draws a number of its own
     const uint passes = as_uint(PLANE(path_media, MEDIUM_PASSES)[slot]);

@@ -52,6 +52,7 @@ std::map<std::string, std::string> metadata(
         {"wavepath.samples", std::to_string(result.samples)},
         {"wavepath.method", job.settings.method.name},
         {"wavepath.termination", job.settings.termination.text()},
+        {"wavepath.layering", job.settings.layers_conserve ? "conserving" : "specification"},
         {"wavepath.bias", bias.empty() ? "none" : bias},
         {"wavepath.variance_batches", std::to_string(result.batches)},
         {"wavepath.device", device.info.platform + ", " + device.info.name},

@@ -177,6 +177,12 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option("--sampler", o.sampler, "Kind of points; default sobol")
         ->check(CLI::IsMember({"sobol", "independent"}))
         ->type_name("sobol|independent");
+    app.add_option(
+           "--layering", o.layering,
+           "What lies below the specular layer of dielectrics: what that leaves of the energy, or "
+           "glTF's letter; default conserving")
+        ->check(CLI::IsMember({"conserving", "specification"}))
+        ->type_name("conserving|specification");
     app.add_option("--distance", o.distance, "How stops in media are chosen; default exponential")
         ->check(CLI::IsMember({"uniform", "exponential", "truncated", "equiangular", "mis"}))
         ->type_name("NAME");
@@ -222,6 +228,7 @@ RenderJob prepare_job(const RenderOptions& options) {
     settings.splits = parse_splits(options.splits);
     settings.split_depth = options.split_depth;
     settings.sobol = options.sampler == "sobol";
+    settings.layers_conserve = options.layering == "conserving";
     settings.seed = options.seed;
     job.scene_of_file = options.scene_of_file;
     settings.pool = options.pool;

@@ -32,6 +32,7 @@ struct RenderOptions {
     std::string guide = "on";
     std::string light_choice;  // empty: the method's own
     std::string sampler = "sobol";
+    std::string layering = "conserving";
     std::string distance = "exponential";
     std::string direction = "phase";
     std::string splits = "1,1,1";

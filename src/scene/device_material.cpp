@@ -71,4 +71,10 @@ bool reflects_specularly(const Material& material) {
            (material.metallic > 0 || material.specular > 0 || material.transmission > 0);
 }
 
+bool has_layer(const Material& material) {
+    const bool metal = material.metallic == 1 && !material.has(TEXTURE_METALLIC_ROUGHNESS);
+    return material.boundary == Boundary::opaque && !metal &&
+           (material.specular > 0 || material.transmission > 0);
+}
+
 }  // namespace wavepath

@@ -22,4 +22,7 @@ bool may_pass_straight(const Material& material);
 // Whether it has a lobe besides the Lambertian.
 bool reflects_specularly(const Material& material);
 
+// Whether it is a dielectric, in part at least, whose specular layer has something below.
+bool has_layer(const Material& material);
+
 }  // namespace wavepath

@@ -24,6 +24,7 @@ std::string Features::defines() const {
     text += fmt::format("#define TEXTURE_PAGES {}\n", texture_pages);
     text += fmt::format("#define TEXTURE_PAGE_WORDS {}u\n", texture_page_words);
     define("HAS_SPECULAR", specular);
+    define("LAYERS_CONSERVE", layers_conserve);
     define("HAS_TRANSMISSION", transmission);
     define("HAS_SMOOTH_WALLS", smooth_walls);
     define("HAS_AREA_LIGHTS", area_lights);
@@ -75,6 +76,7 @@ Features features_of(
         const Material& material = scene.materials[m];
         const bool reflects = reflects_specularly(material);
         f.specular = f.specular || reflects;
+        f.layers_conserve = f.layers_conserve || has_layer(material);
         f.lobe_textures =
             f.lobe_textures ||
             (reflects &&

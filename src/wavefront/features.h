@@ -29,6 +29,7 @@ struct Features {
     uint32_t texture_pages = 0;
     uint64_t texture_page_words = 0;
     bool specular = false;
+    bool layers_conserve = false;  // of dielectrics with a specular layer
     bool transmission = false;
     bool smooth_walls = false;  // that light goes straight through
     bool area_lights = false;

@@ -231,6 +231,8 @@ RenderResult render(
         build_texture_tables(scene, worn_materials(scene, geometry), device.info.max_allocation);
     Features features =
         features_of(scene, geometry, tables, media, textures, settings.method, settings.sobol);
+    const bool gains_energy = features.layers_conserve && !settings.layers_conserve;
+    features.layers_conserve = features.layers_conserve && settings.layers_conserve;
     const bool branches = settings.splits.reflections > 1 ||
                           (media.scatter && (settings.splits.directions > 1 ||
                                              features.distances != Distances::exponential));
@@ -320,11 +322,19 @@ RenderResult render(
     }
 
     result.film = develop(device, std::move(film), result.samples, result.batches);
+    result.outlier = largest_outlier(result.film.image);
+    const double samples = static_cast<double>(result.samples) * static_cast<double>(pixels);
+    if (auto warning = outlier_warning(result.outlier, samples, gains_energy))
+        result.warnings.push_back(*std::move(warning));
     if (result.film.nonfinite.of_media)
         result.warnings.push_back(fmt::format(
             "{}: samples are not finite where more than 4 media lie around one another, "
             "or meet in a plane; take one of them away if any do",
             scene.name));
+    else if (result.film.nonfinite.samples > 0 && gains_energy)
+        result.warnings.emplace_back(
+            "samples are not finite: by --layering specification dielectrics gain energy, without "
+            "bound in closed scenes; use --layering conserving");
     else if (result.film.nonfinite.samples > 0)
         result.warnings.push_back(fmt::format(
             "{}: samples are not finite, and why is not known; dim lights whose radiance may "

@@ -3,6 +3,7 @@
 
 #include "device/program.h"
 #include "film/film.h"
+#include "film/outlier.h"
 #include "measure/profile.h"
 #include "scene/scene.h"
 #include "wavefront/method.h"
@@ -26,7 +27,8 @@ struct RenderSettings {
     Splits splits;
     uint32_t split_depth = 1;
     bool sobol = true;
-    uint32_t pool = 0;  // path slots; 0: the device's default
+    bool layers_conserve = true;  // below specular layers, as materials; false: by glTF's letter
+    uint32_t pool = 0;            // path slots; 0: the device's default
     WorkGroups work_groups;
     std::optional<uint32_t> count_lag;  // QueueManager's; none: 0 on a CPU, 1 elsewhere
 
@@ -48,6 +50,7 @@ struct RenderProgress {
 
 struct RenderResult {
     DevelopedFilm film;
+    Outlier outlier;       // of the film
     uint64_t samples = 0;  // a pixel
     uint32_t batches = 0;  // that the variance rests on
     RenderTimes times;
