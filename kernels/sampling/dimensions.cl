@@ -57,7 +57,20 @@ INLINE uint cover_key(global const uint* ids, const size_t stride, const size_t 
     return hash_pair(ray, hash_pair(dimension, branch));
 }
 
-// The same for its connection to a light.
+// Random bits of slot `slot`'s ray, by which it meets boundaries that transmit in part or not
+// (media/boundary_share.cl). Its direction takes the place of its branch, which `sample_distance`
+// changes between the stages that ask.
+INLINE uint share_key(
+    global const uint* ids, global const float* rays, const size_t stride, const size_t slot) {
+    const uint ray = hash_pair(PLANE(ids, ID_SEED)[slot], PLANE(ids, ID_INDEX)[slot]);
+    const uint x = as_uint(PLANE(rays, RAY_DIRECTION_X)[slot]);
+    const uint y = as_uint(PLANE(rays, RAY_DIRECTION_Y)[slot]);
+    const uint z = as_uint(PLANE(rays, RAY_DIRECTION_Z)[slot]);
+    return hash_pair(
+        hash_pair(ray, PLANE(ids, ID_SCATTERING)[slot]), hash_pair(x, hash_pair(y, z)));
+}
+
+// The same as cover_key for its connection to a light.
 INLINE uint shadow_cover_key(global const uint* ids, const size_t stride, const size_t slot) {
     return ~cover_key(ids, stride, slot);
 }

@@ -33,13 +33,13 @@
 #define HAS_VERTEX_ALPHAS 1  // some such mesh has them in COLOR_0
 #endif
 #ifndef HAS_SPECULAR
-#define HAS_SPECULAR 1  // some material has a microfacet or mirror lobe
+#define HAS_SPECULAR 1  // some material has a microfacet or mirror lobe, or transmits in part
 #endif
 #ifndef LAYERS_CONSERVE
 #define LAYERS_CONSERVE 1  // what is below a dielectric's specular layer gets what that leaves
 #endif
 #ifndef HAS_TRANSMISSION
-#define HAS_TRANSMISSION 1  // some material lets light through (thin walls)
+#define HAS_TRANSMISSION 1  // some thin wall lets light through
 #endif
 #ifndef HAS_SMOOTH_WALLS
 #define HAS_SMOOTH_WALLS 1  // some such wall lets it straight through
@@ -79,6 +79,9 @@
 #endif
 #ifndef ROUGH_DIELECTRICS
 #define ROUGH_DIELECTRICS 1  // some boundary refracts by microfacets
+#endif
+#ifndef PARTIAL_BOUNDARIES
+#define PARTIAL_BOUNDARIES 1  // some boundary transmits in part, the rest reflects
 #endif
 #ifndef MEDIA_SCATTER
 #define MEDIA_SCATTER 1  // some medium scatters; 0: they absorb and emit alone

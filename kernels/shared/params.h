@@ -30,6 +30,7 @@ typedef struct {
     shared_uint splits;           // S directions from a surface point
     shared_uint split_depth;      // only the first vertices branch, and the segments before them
     shared_uint light_count;
+    shared_uint material_count;
     // environment
     shared_uint environment_width;  // texels; 0: constant
     shared_uint environment_height;
@@ -46,7 +47,7 @@ typedef struct {
     shared_float guide_x, guide_y, guide_z;
     shared_float guide_radius2;
 } RenderParams;
-SHARED_SIZE(RenderParams, 180);
+SHARED_SIZE(RenderParams, 184);
 
 // One row of the sample plan: which samples of every pixel a pass takes, counted from the pixel's
 // first.

@@ -22,7 +22,8 @@ typedef struct {
     shared_uint double_sided;   // emits from both faces
     shared_uint boundary;       // BOUNDARY_*
     shared_uint medium;         // row of the table of media + 1 of what it encloses; 0: nothing
-    shared_float transmission;  // [1] share of what enters that goes straight through (thin walls)
+    shared_float transmission;  // [1] share of what enters that goes through: straight (thin
+                                // walls), or into the medium
 } DeviceMaterial;
 SHARED_SIZE(DeviceMaterial, 64);
 

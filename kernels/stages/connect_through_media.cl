@@ -104,6 +104,7 @@ kernel void connect_through_media(
         }
         const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
         value = mul3(value, tint_of_boundary(&cover, materials, &hit));
+        value = scale3(value, share_of_boundary(&cover, materials, &hit));
         value = scale3(value, weight_of_crossing(stack, crossed, material->medium));
         stack = crossed;
     }

@@ -64,7 +64,7 @@ kernel void direct_light(
                                          triangles + TRIANGLE_FLOATS * primitive, direction);
             weight_behind =
                 HAS_CONTACTS ? 1.0f : weight_of_crossing(stack, crossed, material->medium);
-            alpha = material->alpha;
+            alpha = HAS_LOBE_TEXTURES ? PLANE(surfaces, SURFACE_ALPHA)[slot] : material->alpha;
             ior_i = refractive_index(media, stack);
             ior_t = refractive_index(media, crossed);
             if (!ROUGH_DIELECTRICS) return;

@@ -1,8 +1,8 @@
 // Looks behind every dielectric face and thin wall that a ray met for what touches it: what lies
 // within RAY_OFFSET is one interface with it, since the ray that leaves starts beyond. An opaque
 // surface there is hit in its place, and glass in the place of a thin wall; boundaries are crossed
-// with it. Of opaque surfaces that touch one that emits towards the ray is hit (geometry/
-// shown_face.cl).
+// with it. Of a boundary that transmits in part the opaque share counts as an opaque surface. Of
+// opaque surfaces that touch one that emits towards the ray is hit (geometry/shown_face.cl).
 //
 // reads: rays, hits, media, ids, scene, textures
 //
@@ -47,10 +47,14 @@ kernel void find_contacts(
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
     const Cover cover =
         ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
+    const uint key = PARTIAL_BOUNDARIES ? share_key(ids, rays, stride, slot) : 0;
+    if (material->boundary == BOUNDARY_DIELECTRIC)
+        is_opaque = !boundary_is_met(&cover, materials, key, &shown);
+    if (!HAS_LAMP_CONTACTS && is_opaque) return;
     float end = shown.t + touching_distance(triangle, direction);
     uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
     Vec3 tint = vec3(1.0f, 1.0f, 1.0f);
-    if (material->boundary == BOUNDARY_DIELECTRIC) {
+    if (material->boundary == BOUNDARY_DIELECTRIC && !is_opaque) {
         const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
         tint = scale3(tint, weight_of_crossing(stack, crossed, material->medium));
         stack = crossed;
@@ -65,7 +69,8 @@ kernel void find_contacts(
         triangle = triangles + (size_t)TRIANGLE_FLOATS * hit.primitive;
         material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
         if (material->boundary == BOUNDARY_OPAQUE && material->transmission > 0.0f) continue;
-        is_opaque = material->boundary == BOUNDARY_OPAQUE;
+        is_opaque = material->boundary == BOUNDARY_OPAQUE ||
+                    !boundary_is_met(&cover, materials, key, &hit);
         const int replaces = is_opaque | (is_wall & (material->boundary == BOUNDARY_DIELECTRIC));
         if (replaces) shown = hit;
         if (is_opaque) break;

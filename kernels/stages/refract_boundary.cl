@@ -59,14 +59,15 @@ kernel void refract_boundary(
     const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
     const float ior_i = refractive_index(media, stack);
     const float ior_t = refractive_index(media, crossed);
-    const DielectricSample s = dielectric_sample(wo, material->alpha, ior_i, ior_t, u, choice);
+    const float alpha = HAS_LOBE_TEXTURES ? PLANE(surfaces, SURFACE_ALPHA)[slot] : material->alpha;
+    const DielectricSample s = dielectric_sample(wo, alpha, ior_i, ior_t, u, choice);
     const Vec3 side = scale3(ng, s.reflects ? 1.0f : -1.0f);
     Vec3 wi = to_world(frame, s.wi);
     float pdf_w = s.pdf_w;
     if (HAS_SHADING_NORMALS) {
         wi = select3(dot3(side, wi) < 0.0f, mirror3(wi, ng), wi);
         if (ROUGH_DIELECTRICS && pdf_w != PDF_CERTAIN)
-            pdf_w = dielectric_towards(frame, ng, wo, wi, material->alpha, ior_i, ior_t).pdf_w;
+            pdf_w = dielectric_towards(frame, ng, wo, wi, alpha, ior_i, ior_t).pdf_w;
     }
 
     const Vec3 one = vec3(1.0f, 1.0f, 1.0f);

@@ -42,6 +42,9 @@ std::vector<DeviceMaterial> device_materials(const Scene& scene, const MediaTabl
     std::vector<DeviceMaterial> materials;
     for (std::size_t m = 0; m < scene.materials.size(); ++m)
         materials.push_back(device_material(scene.materials[m], media.rows[m]));
+    if (std::ranges::any_of(scene.materials, &Material::transmits_in_part))
+        for (std::size_t m = 0; m < scene.materials.size(); ++m)
+            materials.push_back(opaque_rest(materials[m]));
     return materials;
 }
 

@@ -30,7 +30,8 @@ cl_uint device_boundary(const Material& material) {
 }  // namespace
 
 bool has_tint(const Material& material) {
-    return material.base_color != Rgb{1, 1, 1} || material.has(TEXTURE_BASE_COLOR);
+    return material.base_color != Rgb{1, 1, 1} || material.has(TEXTURE_BASE_COLOR) ||
+           material.transmits_in_part();
 }
 
 DeviceMaterial device_material(const Material& material, uint32_t medium) {
@@ -54,6 +55,16 @@ DeviceMaterial device_material(const Material& material, uint32_t medium) {
     return d;
 }
 
+DeviceMaterial opaque_rest(const DeviceMaterial& boundary) {
+    DeviceMaterial rest = boundary;
+    const float share = boundary.transmission * (1 - boundary.metallic);
+    rest.metallic = share < 1 ? boundary.metallic / (1 - share) : 0;
+    rest.transmission = 0;
+    rest.boundary = BOUNDARY_OPAQUE;
+    rest.medium = 0;
+    return rest;
+}
+
 bool refracts_roughly(const Material& material) {
     return material.boundary == Boundary::dielectric &&
            material.roughness * material.roughness >= mirror_alpha;
@@ -66,15 +77,17 @@ bool may_pass_straight(const Material& material) {
            (material.metallic < 1 || material.has(TEXTURE_METALLIC_ROUGHNESS)) && is_smooth;
 }
 
-bool reflects_specularly(const Material& material) {
-    return material.boundary == Boundary::opaque &&
-           (material.metallic > 0 || material.specular > 0 || material.transmission > 0);
+bool has_lobes(const Material& material) {
+    if (material.boundary == Boundary::opaque)
+        return material.metallic > 0 || material.specular > 0 || material.transmission > 0;
+    const bool refracts = material.boundary == Boundary::dielectric;
+    return material.transmits_in_part() || (refracts && material.has(TEXTURE_METALLIC_ROUGHNESS));
 }
 
 bool has_layer(const Material& material) {
     const bool metal = material.metallic == 1 && !material.has(TEXTURE_METALLIC_ROUGHNESS);
-    return material.boundary == Boundary::opaque && !metal &&
-           (material.specular > 0 || material.transmission > 0);
+    const bool reflects = material.boundary == Boundary::opaque || material.transmits_in_part();
+    return reflects && !metal && (material.specular > 0 || material.transmission > 0);
 }
 
 }  // namespace wavepath

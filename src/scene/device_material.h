@@ -10,7 +10,11 @@ namespace wavepath {
 // `medium`: MediaTables::rows.
 DeviceMaterial device_material(const Material& material, uint32_t medium);
 
-// Whether its base colour is not white everywhere.
+// What is left of a boundary that transmits in part: an opaque surface, which stands as many rows
+// behind it as there are materials (kernels/media/boundary_share.cl).
+DeviceMaterial opaque_rest(const DeviceMaterial& boundary);
+
+// Whether a boundary takes from what passes: by a base colour, or since it transmits in part.
 bool has_tint(const Material& material);
 
 // Whether it is a boundary of microfacets that refract.
@@ -19,8 +23,8 @@ bool refracts_roughly(const Material& material);
 // Whether it is a thin wall that may, at some point, be smooth: light goes straight through it.
 bool may_pass_straight(const Material& material);
 
-// Whether it has a lobe besides the Lambertian.
-bool reflects_specularly(const Material& material);
+// Whether it has a lobe besides the Lambertian, or numbers that are looked up like those of lobes.
+bool has_lobes(const Material& material);
 
 // Whether it is a dielectric, in part at least, whose specular layer has something below.
 bool has_layer(const Material& material);

@@ -40,6 +40,11 @@ bool has_medium(const tinygltf::Value& extras) {
     return extras.IsObject() && extras.Has(extras_key);
 }
 
+// Nothing enters it anywhere.
+bool is_metal(const Material& material) {
+    return material.metallic == 1 && !material.has(TEXTURE_METALLIC_ROUGHNESS);
+}
+
 class MediumReader {
   public:
     MediumReader(const GltfFile& file, int index)
@@ -102,9 +107,10 @@ class MediumReader {
 
     // What keeps the material from enclosing the medium of its extras; nothing if nothing does.
     std::string missing_for_extras(const Material& material) const {
-        if (!(transmission() >= 1)) return "KHR_materials_transmission with transmissionFactor 1";
+        if (!(transmission() > 0))
+            return "KHR_materials_transmission with transmissionFactor above 0";
         if (!(thickness() > 0)) return "KHR_materials_volume with thicknessFactor above 0";
-        if (material.metallic > 0) return "metallicFactor 0";
+        if (is_metal(material)) return "metallicFactor below 1, or a metallicRoughnessTexture";
         if (material.ior < 1) return "an ior of 1 or more";
         return material.unlit ? "no KHR_materials_unlit" : "";
     }
@@ -237,8 +243,7 @@ class MediumReader {
 
 void read_medium(const GltfFile& file, int index, Material& material, Ignored& ignored) {
     const MediumReader reader(file, index);
-    const double transmission = reader.transmission();
-    const bool is_volume = transmission > 0 && reader.thickness() > 0;
+    const bool is_volume = reader.transmission() > 0 && reader.thickness() > 0;
     const std::string missing = reader.missing_for_extras(material);
     if (reader.has_extras() && !missing.empty())
         reader.fail("extras.{} needs {}; repair it", extras_key, missing);
@@ -251,11 +256,10 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
     if (is_volume && material.unlit)
         ignored.add("volumes of unlit materials", "rendered without them");
     if (!is_volume || material.unlit) return;
-    constexpr const char* instead = "rendered as thin walls";
-    if (transmission < 1 || material.metallic > 0)
-        ignored.add("volumes that transmit in part", instead);
+    if (is_metal(material))
+        material.transmission = 0;
     else if (material.ior < 1)
-        ignored.add("volumes that refract with ior 0", instead);
+        ignored.add("volumes that refract with ior 0", "rendered as thin walls");
     else if (material.ior == 1 && material.emits())
         reader.fail("is a boundary with ior 1 and emits; take emissiveFactor or the volume away");
     else {
@@ -266,19 +270,14 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
             ignored.add(
                 "scattering of volumes without attenuationDistance",
                 "rendered as if they were clear");
-        material.transmission = 0;  // of thin walls
-        const bool refracts = material.boundary == Boundary::dielectric;
-        if (refracts && material.has(TEXTURE_METALLIC_ROUGHNESS))
-            ignored.add("roughness textures of volumes", "rendered with roughnessFactor alone");
-        if (material.has(TEXTURE_TRANSMISSION))
-            ignored.add("transmission textures of volumes", "rendered as if they were white");
         if (material.alpha_mode != AlphaMode::opaque)
             ignored.add("alpha modes of volumes", "rendered as if they were OPAQUE");
         material.alpha_mode = AlphaMode::opaque;  // light could enter and not leave
         if (reader.has_scatter_textures())
             ignored.add("textures of what scatters in volumes", "rendered by the factors alone");
-        material.textures[TEXTURE_METALLIC_ROUGHNESS] = {};
-        material.textures[TEXTURE_TRANSMISSION] = {};
+        const bool is_rough = material.boundary == Boundary::dielectric && material.roughness > 0;
+        if (!is_rough && !material.transmits_in_part())
+            material.textures[TEXTURE_METALLIC_ROUGHNESS] = {};
     }
 }
 

@@ -70,9 +70,9 @@ struct Material {
     float ior = 1.5F;    // [1] >= 1, or 0: Fresnel reflectance 1 (legacy mode of KHR_materials_ior)
     float specular = 1;  // [1] specularFactor: weight of the dielectric's specular layer
     Rgb specular_color{1, 1, 1};  // [1] specularColorFactor: tints its F0
-    float transmission = 0;     // [1] share of what enters that goes straight through (thin walls)
-    Rgb emission{0, 0, 0};      // radiance: emissiveFactor * emissiveStrength
-    bool double_sided = false;  // true: emits from both faces
+    float transmission = 0;       // [1] share of what enters that goes through (volumes: into them)
+    Rgb emission{0, 0, 0};        // radiance: emissiveFactor * emissiveStrength
+    bool double_sided = false;    // true: emits from both faces
     Boundary boundary = Boundary::opaque;
     Medium medium{};     // what it encloses, unless it is opaque
     bool unlit = false;  // reflects nothing; vertex colours multiply its emission
@@ -86,6 +86,11 @@ struct Material {
     const Texture& texture(TextureUse use) const { return textures[use]; }
     bool has(TextureUse use) const { return textures[use].image.has_value(); }
     bool emits() const { return emission[0] > 0 || emission[1] > 0 || emission[2] > 0; }
+    // Whether it is a boundary at some points, or for some of the light, and opaque else.
+    bool transmits_in_part() const {
+        return boundary != Boundary::opaque &&
+               (transmission < 1 || metallic > 0 || has(TEXTURE_TRANSMISSION));
+    }
 };
 
 // One glTF mesh primitive as a list of triangles in local space.

@@ -39,6 +39,7 @@ std::string Features::defines() const {
     define("HAS_LAMP_CONTACTS", lamp_contacts);
     define("LAMPS_ON_LAMPS", lamps_on_lamps);
     define("ROUGH_DIELECTRICS", rough_dielectrics);
+    define("PARTIAL_BOUNDARIES", partial_boundaries);
     define("MEDIA_SCATTER", media_scatter);
     text += fmt::format("#define DISTANCES {}\n", static_cast<int>(distances));
     define("PHASE_DIRECTIONS", phase_directions);
@@ -74,20 +75,21 @@ Features features_of(
     for (std::size_t m = 0; m < worn.size(); ++m) {
         if (!worn[m]) continue;
         const Material& material = scene.materials[m];
-        const bool reflects = reflects_specularly(material);
-        f.specular = f.specular || reflects;
+        const bool lobes = has_lobes(material);
+        f.specular = f.specular || lobes;
         f.layers_conserve = f.layers_conserve || has_layer(material);
         f.lobe_textures =
             f.lobe_textures ||
-            (reflects &&
-             (material.has(TEXTURE_METALLIC_ROUGHNESS) || material.has(TEXTURE_SPECULAR) ||
-              material.has(TEXTURE_SPECULAR_COLOR) || material.has(TEXTURE_TRANSMISSION)));
+            (lobes && (material.has(TEXTURE_METALLIC_ROUGHNESS) || material.has(TEXTURE_SPECULAR) ||
+                       material.has(TEXTURE_SPECULAR_COLOR) || material.has(TEXTURE_TRANSMISSION)));
         f.textures = f.textures || (!material.unlit && material.has(TEXTURE_BASE_COLOR));
         f.emission_textures =
             f.emission_textures ||
             (material.emits() && (material.has(TEXTURE_EMISSION) || material.unlit));
-        f.transmission = f.transmission || material.transmission > 0;
+        f.transmission =
+            f.transmission || (material.boundary == Boundary::opaque && material.transmission > 0);
         f.smooth_walls = f.smooth_walls || may_pass_straight(material);
+        f.partial_boundaries = f.partial_boundaries || material.transmits_in_part();
         f.alpha = f.alpha || material.alpha_mode != AlphaMode::opaque;
         f.tinted_boundaries =
             f.tinted_boundaries || (material.boundary == Boundary::index_matched &&

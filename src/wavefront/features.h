@@ -45,6 +45,8 @@ struct Features {
     bool lamp_contacts = false;   // a lamp,
     bool lamps_on_lamps = false;  // and itself shines to the same side
     bool rough_dielectrics = false;  // by microfacets
+    // Boundaries that transmit in part and are opaque else.
+    bool partial_boundaries = false;
     Distances distances = Distances::exponential;
     bool phase_directions = true;
     uint32_t split_levels = 0;  // vertices that branch; the renderer's to decide

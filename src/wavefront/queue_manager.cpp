@@ -39,6 +39,7 @@ std::vector<std::string> QueueManager::kernel_files(const Features& features) {
                           features.connections_by_hits() ? "connect_through_media" : "occlusion"});
     if (features.media) names.insert(names.end(), {"sample_distance", "pass_boundary"});
     if (features.smooth_walls) names.emplace_back("pass_walls");
+    if (features.partial_boundaries) names.emplace_back("decide_boundary");
     if (features.contacts) names.emplace_back("find_contacts");
     if (features.dielectrics) names.emplace_back("refract_boundary");
     if (features.media_scatter) names.emplace_back("scatter_medium");
@@ -85,6 +86,8 @@ QueueManager::QueueManager(
       interact_(program, "interact", groups.streaming, profile),
       apply_textures_(stage_if<decltype(apply_textures_)::value_type>(
           features.textures, program, "apply_textures", groups.streaming, profile)),
+      decide_boundary_(stage_if<decltype(decide_boundary_)::value_type>(
+          features.partial_boundaries, program, "decide_boundary", groups.streaming, profile)),
       pass_boundary_(stage_if<decltype(pass_boundary_)::value_type>(
           features.media, program, "pass_boundary", groups.streaming, profile)),
       shade_miss_(stage_if<decltype(shade_miss_)::value_type>(
@@ -160,6 +163,10 @@ bool QueueManager::render(
             apply_textures_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, scene_.textures,
                 pool_.rays, pool_.hits, pool_.surfaces);
+        if (decide_boundary_)
+            decide_boundary_->launch(
+                device_, slots, params_, slots, scene_.materials, pool_.rays, pool_.hits, pool_.ids,
+                pool_.surfaces);
         if (pass_boundary_)
             pass_boundary_->launch(
                 device_, slots, params_, slots, scene_.triangles, scene_.materials, pool_.rays,

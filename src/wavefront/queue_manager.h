@@ -168,6 +168,8 @@ class QueueManager {
     Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
     std::optional<Stage<Params, cl_uint, Floats, Materials, DeviceTextures, Floats, Floats, Floats>>
         apply_textures_;
+    std::optional<Stage<Params, cl_uint, Materials, Floats, Floats, Uints, Floats>>
+        decide_boundary_;
     std::optional<Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats, Floats, Floats>>
         pass_boundary_;
     std::optional<Stage<Params, cl_uint, Map, Floats, Floats, Floats, Floats>> shade_miss_;

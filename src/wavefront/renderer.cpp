@@ -82,6 +82,7 @@ RenderParams scene_params(
     params.stop_directions = settings.splits.directions;
     params.split_depth = settings.split_depth;
     params.light_count = static_cast<cl_uint>(tables.lights.size());
+    params.material_count = static_cast<cl_uint>(scene.materials.size());
     params.environment_pmf = tables.environment_pmf;
     params.environment_left = tables.environment_left;
     if (scene.environment) {

@@ -66,6 +66,7 @@ namespace {
     FIELD(RenderParams, pass_step) FIELD(RenderParams, max_scatterings)                           \
     FIELD(RenderParams, roulette) FIELD(RenderParams, survival) FIELD(RenderParams, splits)       \
     FIELD(RenderParams, split_depth) FIELD(RenderParams, light_count)                             \
+    FIELD(RenderParams, material_count)                                                           \
     FIELD(RenderParams, environment_width) FIELD(RenderParams, environment_height)                \
     FIELD(RenderParams, environment_r) FIELD(RenderParams, environment_g)                         \
     FIELD(RenderParams, environment_b) FIELD(RenderParams, environment_pmf)  FIELD(RenderParams, environment_left)                     \

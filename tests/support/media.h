@@ -19,6 +19,7 @@ inline Medium medium_of(double sigma_t, double albedo, double g = 0) {
 inline Material boundary_of(const Medium& medium) {
     Material material = lambert(grey(1));
     material.boundary = Boundary::index_matched;
+    material.transmission = 1;
     material.medium = medium;
     return material;
 }

@@ -160,24 +160,62 @@ TEST(GltfMedium, SaysThatUnlitMaterialsEncloseNothing) {
 }
 
 TEST(GltfMedium, SaysWhatIsAThinWallInstead) {
-    struct Case {
+    Json material = boundary();
+    material["extensions"]["KHR_materials_ior"]["ior"] = 0;
+    const Scene scene = load(file_with(material));
+    EXPECT_EQ(scene.materials[0].boundary, Boundary::opaque);
+    EXPECT_GT(scene.materials[0].transmission, 0);
+    EXPECT_THAT(scene.ignored, ElementsAre(HasSubstr("refract with ior 0 (1)")));
+}
+
+GltfBuilder with_image(const Json& material) {
+    GltfBuilder gltf = file_with(material);
+    gltf.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+        gltf.accessor<float>("VEC2", {0, 0, 1, 0, 0, 1});
+    gltf.add("textures", {{"source", 0}});
+    gltf.add(
+        "images", {{"uri", "data:image/png;base64," + base64_of(png_file(1, 1, {9, 9, 9, 255}))}});
+    return gltf;
+}
+
+TEST(GltfMedium, ReadsVolumesThatTransmitInPart) {
+    const struct {
         const char* path;
         Json value;
-        const char* line;
-    };
-    const Case cases[] = {
-        {"/extensions/KHR_materials_transmission/transmissionFactor", 0.5, "transmit in part (1)"},
-        {"/pbrMetallicRoughness/metallicFactor", 1, "transmit in part (1)"},
-        {"/extensions/KHR_materials_ior/ior", 0, "refract with ior 0 (1)"},
-    };
-    for (const Case& c : cases) {
-        Json material = boundary();
-        material[Json::json_pointer(c.path)] = c.value;
-        const Scene scene = load(file_with(material));
-        EXPECT_EQ(scene.materials[0].boundary, Boundary::opaque) << c.path;
-        EXPECT_GT(scene.materials[0].transmission, 0) << c.path;
-        EXPECT_THAT(scene.ignored, ElementsAre(HasSubstr(c.line))) << c.path;
-    }
+    } cases[] = {
+        {"/extensions/KHR_materials_transmission/transmissionFactor", 0.5},
+        {"/pbrMetallicRoughness/metallicFactor", 0.5},
+        {"/extensions/KHR_materials_transmission/transmissionTexture", {{"index", 0}}}};
+    for (const double ior : {1.0, 1.5})
+        for (const auto& [path, value] : cases) {
+            SCOPED_TRACE(path);
+            Json material = boundary();
+            material["extensions"]["KHR_materials_ior"]["ior"] = ior;
+            material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 0}};
+            material[Json::json_pointer(path)] = value;
+            material["extras"] = {{"wavepath_medium", {{"sigma_a", {1, 2, 3}}}}};
+            const Scene scene = load(with_image(material));
+            EXPECT_NE(scene.materials[0].boundary, Boundary::opaque);
+            EXPECT_TRUE(scene.materials[0].transmits_in_part());
+            EXPECT_TRUE(scene.materials[0].has(TEXTURE_METALLIC_ROUGHNESS));
+            EXPECT_THAT(scene.materials[0].medium.sigma_a, ElementsAre(1, 2, 3));
+            EXPECT_THAT(scene.ignored, IsEmpty());
+        }
+}
+
+// Metal is, but for a texture that may make it none in places.
+TEST(GltfMedium, OfMetalEnclosesNothing) {
+    Json material = boundary();
+    material["pbrMetallicRoughness"]["metallicFactor"] = 1;
+    const Scene metal = load(with_image(material));
+    EXPECT_EQ(metal.materials[0].boundary, Boundary::opaque);
+    EXPECT_EQ(metal.materials[0].transmission, 0);
+    EXPECT_THAT(metal.ignored, IsEmpty());
+    material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 0}};
+    const Scene textured = load(with_image(material));
+    EXPECT_EQ(textured.materials[0].boundary, Boundary::index_matched);
+    EXPECT_TRUE(textured.materials[0].transmits_in_part());
+    EXPECT_THAT(textured.ignored, IsEmpty());
 }
 
 TEST(GltfMedium, ReadsDielectricsOfAnyRoughness) {
@@ -193,30 +231,26 @@ TEST(GltfMedium, ReadsDielectricsOfAnyRoughness) {
     }
 }
 
-TEST(GltfMedium, SaysWhichTexturesItDoesNotRead) {
-    const auto line = [](const char* path, double ior) {
-        Json material = boundary();
-        material[Json::json_pointer("/extensions/KHR_materials_ior/ior")] = ior;
-        material[Json::json_pointer(path)] = {{"index", 0}};
-        attenuate(material);
-        GltfBuilder gltf = file_with(material);
-        gltf.add("textures", {{"source", 0}});
-        gltf.add(
-            "images",
-            {{"uri", "data:image/png;base64," + base64_of(png_file(1, 1, {9, 9, 9, 255}))}});
-        const Scene scene = load(gltf);
-        for (const Texture& texture : scene.materials[0].textures) EXPECT_FALSE(texture.image);
-        return scene.ignored.empty() ? "" : scene.ignored[0];
-    };
-    const char* const roughness = "/pbrMetallicRoughness/metallicRoughnessTexture";
-    EXPECT_THAT(line(roughness, 1.5), HasSubstr("roughness textures of volumes (1)"));
-    EXPECT_THAT(line(roughness, 1), Not(HasSubstr("roughness")));  // without microfacets
-    EXPECT_THAT(
-        line("/extensions/KHR_materials_transmission/transmissionTexture", 1.5),
-        HasSubstr("transmission textures of volumes (1)"));
-    EXPECT_THAT(
-        line("/extensions/KHR_materials_scatter/multiscatterColorTexture", 1),
-        HasSubstr("textures of what scatters in volumes (1)"));
+TEST(GltfMedium, ReadsRoughnessTexturesOfWhatRefracts) {
+    Json material = boundary();
+    material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 0}};
+    const Scene matched = load(with_image(material));  // without microfacets
+    EXPECT_FALSE(matched.materials[0].has(TEXTURE_METALLIC_ROUGHNESS));
+    EXPECT_THAT(matched.ignored, IsEmpty());
+    material["extensions"]["KHR_materials_ior"]["ior"] = 1.5;
+    const Scene glass = load(with_image(material));
+    EXPECT_TRUE(glass.materials[0].has(TEXTURE_METALLIC_ROUGHNESS));
+    EXPECT_FALSE(glass.materials[0].transmits_in_part());
+    EXPECT_THAT(glass.ignored, IsEmpty());
+}
+
+TEST(GltfMedium, SaysThatItDoesNotReadTexturesOfWhatScatters) {
+    Json material = boundary();
+    material["extensions"]["KHR_materials_scatter"]["multiscatterColorTexture"] = {{"index", 0}};
+    attenuate(material);
+    const Scene scene = load(with_image(material));
+    for (const Texture& texture : scene.materials[0].textures) EXPECT_FALSE(texture.image);
+    EXPECT_THAT(scene.ignored, ElementsAre(HasSubstr("textures of what scatters in volumes (1)")));
 }
 
 TEST(GltfMedium, SaysWhichMembersItDoesNotKnow) {
@@ -310,11 +344,12 @@ TEST(GltfMedium, RefusesWhatMeansNothing) {
         const char* line;
     };
     const Conflict conflicts[] = {
-        {"/extensions/KHR_materials_transmission/transmissionFactor", 0.5,
-         "needs KHR_materials_transmission with transmissionFactor 1;"},
+        {"/extensions/KHR_materials_transmission/transmissionFactor", 0,
+         "needs KHR_materials_transmission with transmissionFactor above 0;"},
         {"/extensions/KHR_materials_ior/ior", 0, "needs an ior of 1 or more;"},
         {"/extensions/KHR_materials_unlit", Json::object(), "needs no KHR_materials_unlit;"},
-        {"/pbrMetallicRoughness/metallicFactor", 1, "needs metallicFactor 0;"},
+        {"/pbrMetallicRoughness/metallicFactor", 1,
+         "needs metallicFactor below 1, or a metallicRoughnessTexture;"},
     };
     for (const auto& [path, value, line] : conflicts) {
         material = with_extras({{"sigma_a", {1, 1, 1}}});
