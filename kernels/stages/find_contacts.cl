@@ -69,8 +69,8 @@ kernel void find_contacts(
         triangle = triangles + (size_t)TRIANGLE_FLOATS * hit.primitive;
         material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
         if (material->boundary == BOUNDARY_OPAQUE && material->transmission > 0.0f) continue;
-        is_opaque = material->boundary == BOUNDARY_OPAQUE ||
-                    !boundary_is_met(&cover, materials, key, &hit);
+        is_opaque =
+            material->boundary == BOUNDARY_OPAQUE || !boundary_is_met(&cover, materials, key, &hit);
         const int replaces = is_opaque | (is_wall & (material->boundary == BOUNDARY_DIELECTRIC));
         if (replaces) shown = hit;
         if (is_opaque) break;
