@@ -117,7 +117,7 @@ class PrimitiveDecoder {
 
     // Adds `values` as buffer and view of `accessor`; returns the accessor's index.
     template <typename T>
-    int add(tinygltf::Accessor accessor, const std::vector<T>& values) {
+    int add(tinygltf::Accessor&& accessor, const std::vector<T>& values) {
         tinygltf::Model& model = file_.model;
         tinygltf::Buffer& buffer = model.buffers.emplace_back();
         buffer.data.resize(sizeof(T) * values.size());
@@ -127,7 +127,7 @@ class PrimitiveDecoder {
         view.byteLength = buffer.data.size();
         accessor.bufferView = static_cast<int>(model.bufferViews.size() - 1);
         accessor.byteOffset = 0;
-        accessor.sparse.isSparse = false;
+        accessor.sparse = {};  // whose numbers tinygltf leaves without values
         model.accessors.push_back(std::move(accessor));
         return static_cast<int>(model.accessors.size() - 1);
     }
