@@ -137,7 +137,8 @@ TEST(Homogeneous, StopsAreUnbiasedInEveryChannel) {
     constexpr double z = 5.5;
     const auto medium = [&](const std::array<float, 3>& sigma_t) {
         std::vector<float> rows;
-        for (const float sigma : sigma_t) rows.insert(rows.end(), {sigma, albedo * sigma, 0, 0});
+        for (const float sigma : sigma_t)
+            for (const float value : {sigma, albedo * sigma, 0.0F, 0.0F}) rows.push_back(value);
         return rows;
     };
     const auto distance_is = [&](const std::vector<float>& out, double mean) {
