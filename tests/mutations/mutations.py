@@ -80,7 +80,7 @@ MUTATIONS = [
      "return !(HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f);", "return 1;",
      "Determinism.OfPacketsAndSingleRays"),
     ("packets: nothing known lies behind", "stages/intersect.cl",
-     "            behind = *next;", "            behind = hit;",
+     "if (next) return *next;", "if (next) return *hit;",
      "Determinism.OfPacketsAndSingleRays"),
     ("packets: connections of every lane arrive", "stages/occlusion.cl",
      "if ((blocked >> k & 1u) == 0)", "if (k >= 0)",
