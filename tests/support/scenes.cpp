@@ -3,6 +3,7 @@
 #include "scene/camera.h"
 #include "scene/transform.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
