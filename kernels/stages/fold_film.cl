@@ -3,10 +3,9 @@
 // windows. Compensated sums [Kahan 1965]: 10^7 samples of a constant stay right to 1e-7. The
 // variance between batches is updated by Welford's recurrence, weighted [West 1979].
 //
-// reads: plan, cells, cell_flags; the band of the film that holds the window, which is its pixels
-// [first_pixel, first_pixel + band_pixels)
+// reads: plan, cells, cell_flags
 //
-// writes: film, film_flags
+// writes: film, film_flags, of the band that holds the window's pixels
 //
 // One work-item a pixel of the window.
 
@@ -33,15 +32,13 @@ kernel void fold_film(
     global const PlanRow* restrict plan,
     global const float* restrict cells,
     global const uint* restrict cell_flags,
-    const uint first_pixel,
-    const uint band_pixels,
     global float* restrict film,
     global uint* restrict film_flags) {
     const RenderParams params = *settings;
     const uint i = (uint)get_global_id(0);
     if (i >= params.window_pixels) return;
-    const size_t pixels = band_pixels;
-    const uint pixel = params.first_pixel - first_pixel + i;
+    const size_t pixels = params.window_pixels;  // of the film's band, which is the window's
+    const uint pixel = i;
     const uint passes = params.cells / params.window_pixels;
 
     for (uint k = 0; k < SUM_PLANES; ++k) {

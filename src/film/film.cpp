@@ -31,12 +31,9 @@ constexpr const char* sum_channels[SUM_PLANES - 1] = {
     "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"};
 constexpr const char* variance_channels[3] = {"variance.R", "variance.G", "variance.B"};
 
-// Of one band, 143 MiB: fewer than a window has in a large picture.
-constexpr std::size_t most_band_pixels = std::size_t{1} << 20U;
-
-std::vector<FilmBand> bands_of(const Device& device, std::size_t pixels) {
+std::vector<FilmBand> bands_of(const Device& device, std::size_t pixels, std::size_t most_pixels) {
     const std::size_t most = std::clamp<std::size_t>(
-        device.info.max_allocation / (FILM_PLANES * sizeof(cl_float)), 1, most_band_pixels);
+        device.info.max_allocation / (FILM_PLANES * sizeof(cl_float)), 1, most_pixels);
     std::vector<FilmBand> bands;
     for (std::size_t first = 0; first < pixels; first += most) {
         const std::size_t count = std::min(most, pixels - first);
@@ -121,8 +118,8 @@ void count_nonfinite(const BandView& band, const FilmBand& place, uint32_t width
 
 const std::size_t Film::pixel_bytes = FILM_PLANES * sizeof(cl_float) + FILM_FLAGS * sizeof(cl_uint);
 
-Film::Film(const Device& device, uint32_t w, uint32_t h)
-    : width(w), height(h), bands(bands_of(device, std::size_t{w} * h)) {}
+Film::Film(const Device& device, uint32_t w, uint32_t h, uint64_t most_pixels)
+    : width(w), height(h), bands(bands_of(device, std::size_t{w} * h, most_pixels)) {}
 
 double relative_error(const Device& device, const Film& film, uint64_t samples, uint32_t batches) {
     double error = 0;

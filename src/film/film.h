@@ -9,7 +9,7 @@
 
 namespace wavepath {
 
-// A range of pixels, in buffers of its own.
+// A range of pixels, in buffers of its own: those of a window of the render.
 // NOLINTNEXTLINE(bugprone-exception-escape): see Device
 struct FilmBand {
     uint32_t first_pixel, pixels;
@@ -23,7 +23,8 @@ struct FilmBand {
 struct Film {
     static const std::size_t pixel_bytes;
 
-    Film(const Device& device, uint32_t width, uint32_t height);
+    // A band has at most `most_pixels`, and fewer where the device allows less in one buffer.
+    Film(const Device& device, uint32_t width, uint32_t height, uint64_t most_pixels);
 
     uint32_t width, height;
     std::vector<FilmBand> bands;  // in the order of pixels, all of one size but the last

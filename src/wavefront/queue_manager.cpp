@@ -233,8 +233,7 @@ bool QueueManager::render(
     if (whole) {
         const FilmBand& band = film.band_of(window.first_pixel);
         fold_film_.launch(
-            device_, window.pixels, params_, plan_, cells_, cell_flags_, band.first_pixel,
-            band.pixels, band.planes, band.flags);
+            device_, window.pixels, params_, plan_, cells_, cell_flags_, band.planes, band.flags);
     }
     device_.queue.finish();
     profile_.collect();

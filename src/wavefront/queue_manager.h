@@ -15,7 +15,7 @@
 
 namespace wavepath {
 
-// Pixels [first_pixel, first_pixel + pixels) of one band of the film, and the passes to take
+// A band of the film, pixels [first_pixel, first_pixel + pixels), and the passes to take
 // through them.
 struct Window {
     uint32_t first_pixel = 0;
@@ -259,7 +259,7 @@ class QueueManager {
     Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
     Stage<Params, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats, Floats> move_paths_;
     Stage<Params, cl_uint, Floats, Floats, Floats, Uints, Floats, Uints> accumulate_;
-    Stage<Params, Plan, Floats, Uints, cl_uint, cl_uint, Floats, Uints> fold_film_;
+    Stage<Params, Plan, Floats, Uints, Floats, Uints> fold_film_;
 };
 
 }  // namespace wavepath

@@ -150,7 +150,7 @@ void warm_up(
     Profile profile;
     QueueManager queues(
         device, program, features, buffers, QUEUE_CHUNK, 1, settings.work_groups, 0, profile);
-    Film film(device, 1, 1);
+    Film film(device, 1, 1, 1);
     const Window window{0, 1, {PlanRow{0, 1, 0, 1}}};
     queues.render(window, params, film);
     queues.load_compaction();
@@ -178,11 +178,8 @@ class Schedule {
             plan_.take(std::min(fit, std::max(least_passes_, static_cast<uint64_t>(passes))));
         passes_ = rows.size();
         std::vector<Window> windows;
-        for (const FilmBand& band : bands)
-            for (uint64_t first = 0; first < band.pixels; first += max_cells_)
-                windows.push_back(
-                    {static_cast<uint32_t>(band.first_pixel + first),
-                     static_cast<uint32_t>(std::min(band.pixels - first, max_cells_)), rows});
+        windows.reserve(bands.size());
+        for (const FilmBand& band : bands) windows.push_back({band.first_pixel, band.pixels, rows});
         return windows;
     }
 
@@ -286,7 +283,7 @@ RenderResult render(
         device, program, features, buffers, pool, max_cells, settings.work_groups,
         settings.count_lag.value_or(device.info.is_cpu ? 0 : 1), profile);
     check_memory(device, buffers.bytes() + queues.bytes(), settings);
-    Film film(device, settings.width, settings.height);
+    Film film(device, settings.width, settings.height, max_cells);
     result.film_bytes = film.bytes();
     // last, so that no buffer takes the place of one it freed: oclgrind mixes them up
     warm_up(device, program, features, buffers, settings, params);

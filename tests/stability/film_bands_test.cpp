@@ -22,7 +22,7 @@ Device with_buffers_of(std::size_t bytes) {
     return device;
 }
 
-// 2077 pixels of 200000 bytes: bands that end within a row, and windows within a band.
+// 2077 pixels in bands of 1470 and 441, which end within a row.
 TEST(FilmBands, SameBytesWhateverOneBufferHolds) {
     RenderSettings settings =
         square_settings("mis", perspective({0.8, 0.2, 0.9}, {-0.2, -0.4, -0.3}, 1.2), 67, 24);
@@ -45,7 +45,7 @@ TEST(FilmBands, SameBytesWhateverOneBufferHolds) {
 }
 
 TEST(FilmBands, OfAFilmCoverEveryPixelOnce) {
-    const Film film(with_buffers_of(FILM_PLANES * 4 * 10), 7, 9);
+    const Film film(with_buffers_of(FILM_PLANES * 4 * 10), 7, 9, 1000);
     ASSERT_EQ(film.bands.size(), 7U);
     for (uint32_t pixel = 0; pixel < 63; ++pixel) {
         const FilmBand& band = film.band_of(pixel);
@@ -54,11 +54,12 @@ TEST(FilmBands, OfAFilmCoverEveryPixelOnce) {
     }
     EXPECT_EQ(film.bands.back().pixels, 3U);
     EXPECT_EQ(film.bytes(), 63 * Film::pixel_bytes);
+    EXPECT_EQ(Film(test_device(), 7, 9, 8).bands.size(), 8U);
 }
 
 TEST(FilmBands, NameTheFirstNonFinitePixelOfThePicture) {
     const Device device = with_buffers_of(sizeof(cl_float) * FILM_PLANES * 16);
-    Film film(device, 8, 8);
+    Film film(device, 8, 8, 1000);
     ASSERT_EQ(film.bands.size(), 4U);
     const cl_uint found[] = {3, 17};  // samples that were not finite, the first of them
     const FilmBand& band = film.bands[1];
