@@ -20,6 +20,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -100,6 +101,10 @@ int run(int argc, char** argv) {
     } catch (const wavepath::Interrupted& interrupted) {
         return exit_signalled + interrupted.signal;
     } catch (const wavepath::OutputFailed&) {
+        return exit_failure;
+    } catch (const std::bad_alloc&) {
+        spdlog::error(
+            "not enough memory; use a smaller --size or scene, or raise the limit (ulimit -v)");
         return exit_failure;
     } catch (const cl::Error& error) {
         spdlog::error(

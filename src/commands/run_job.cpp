@@ -2,6 +2,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/progress.h"
+#include "device/driver_failure.h"
 
 #include <spdlog/spdlog.h>
 
@@ -15,6 +16,7 @@ RenderResult run_job(const Device& device, const RenderJob& job, bool quiet) {
         job.settings.method.name, device.info.name);
 
     const InterruptGuard interrupt;
+    const DriverFailureGuard driver;
     Progress progress(job.settings, quiet);
     RenderResult result = render(
         device, job.scene, job.settings, [&](const RenderProgress& state) { progress.show(state); },

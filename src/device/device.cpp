@@ -4,6 +4,8 @@
 #include "error.h"
 
 #include <sched.h>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -91,16 +93,42 @@ bool user_chose_drivers() {
     return false;
 }
 
+// PoCL starts as many threads as it is told, crashes where that is below 0, and by POCL_AFFINITY
+// aborts where one has no CPU. The names are those of PoCL up to 3, from 4 and from 7 on.
+void limit_pocl_threads(long cpus) {
+    for (const char* variable :
+         {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT", "POCL_MAX_COMPUTE_UNITS"}) {
+        const char* value = std::getenv(variable);
+        if (value == nullptr) continue;
+        const long threads = std::strtol(value, nullptr, 10);
+        if (threads >= 0 && threads <= cpus) continue;
+        spdlog::warn("{}={}: there are {} CPUs; it is taken as {}", variable, value, cpus, cpus);
+        setenv(variable, std::to_string(cpus).c_str(), 1);
+    }
+}
+
+// Below it drivers abort as they start their threads.
+void check_address_space() {
+    constexpr rlim_t least = rlim_t{512} << 20U;  // [bytes]
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur < least)
+        throw Error(
+            "the limit on memory (ulimit -v) is {} MiB: OpenCL drivers need more than {} MiB to "
+            "start; raise it",
+            limit.rlim_cur >> 20U, least >> 20U);
+}
+
 }  // namespace
 
 void prepare_environment() {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    limit_pocl_threads(online);
     cpu_set_t allowed;
     if (std::getenv("POCL_AFFINITY") != nullptr ||
         sched_getaffinity(0, sizeof(allowed), &allowed) != 0)
         return;
     // PoCL pins its worker i to CPU i, and aborts or leaves the process' mask where that CPU is not
     // ours.
-    const long online = sysconf(_SC_NPROCESSORS_ONLN);
     for (int cpu = 0; cpu < online; ++cpu)
         if (!CPU_ISSET(cpu, &allowed)) return;
     setenv("POCL_AFFINITY", "1", 0);
@@ -166,11 +194,14 @@ DeviceInfo describe_empty_platform(const cl::Platform& platform, uint32_t platfo
         info.unusable += " (Rusticl has those that RUSTICL_ENABLE names)";
     if (is_pocl(info))
         info.unusable +=
-            " (PoCL has none where it cannot write its cache; name a folder by POCL_CACHE_DIR)";
+            " (PoCL has none where it cannot write its cache: name a folder by POCL_CACHE_DIR; "
+            "where "
+            "POCL_DEVICES names none; and where memory or processes run out: see ulimit)";
     return info;
 }
 
 Device open_device(const std::string& selector) {
+    check_address_space();
     // The default device is PoCL's, and the other drivers are then better not loaded: they cost
     // 12-18 ms of start-up here (docs/devices.md), and one that crashes as it is loaded would take
     // the render with it.

@@ -61,8 +61,8 @@ DeviceInfo describe_device(
 // The row of a platform without devices: no device name, and `unusable`.
 DeviceInfo describe_empty_platform(const cl::Platform& platform, uint32_t platform_index);
 
-// Before the first OpenCL call of the process: POCL_AFFINITY=1 where unset and the process may use
-// CPUs 0..n-1 (without it PoCL 3.1 runs kernels under 80 ms on one core: docs/devices.md).
+// Before the first OpenCL call of the process: PoCL gets no more threads than there are CPUs, and
+// POCL_AFFINITY=1 where that is unset and CPUs 0..n-1 are the process' (docs/devices.md says why).
 void prepare_environment();
 
 }  // namespace wavepath

@@ -1,7 +1,9 @@
 #include "device/program.h"
 
 #include "device/binary_cache.h"
+#include "device/driver_failure.h"
 #include "device/embedded_kernels.h"
+#include "device/selection.h"
 #include "error.h"
 
 #include <algorithm>
@@ -215,6 +217,8 @@ cl::Program from_source(
         if (builds(plain, device, "-cl-std=CL1.2")) return plain;
     }
     const std::string log = build_log(program, device);
+    if (is_pocl(device.info) && log.find("error: ") == std::string::npos)
+        throw Error("the kernels do not build ({}): {}", device.info.name, pocl_cache_advice());
     throw Error(
         "{} ({}); mend the folder that WAVEPATH_KERNELS names or unset it, else report it\n{}",
         first_error(log), device.info.name, log);
@@ -262,6 +266,9 @@ cl::Program build_program(const Device& device, const std::string& source, Build
         program = from_source(device, source, options);
         if (!cache.path().empty()) cache.store(binary_of(program));
     }
+    if (is_pocl(device.info) && program.getInfo<CL_PROGRAM_NUM_KERNELS>() == 0)
+        throw Error(
+            "the program built holds no kernel ({}): {}", device.info.name, pocl_cache_advice());
     if (report != nullptr) {
         report->seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -54,7 +54,8 @@ std::size_t select_device(const std::vector<DeviceInfo>& devices, const std::str
     if (devices.empty())
         throw Error(
             "no OpenCL device; install a driver, PoCL for the CPU (Debian, Ubuntu: "
-            "pocl-opencl-icd), and see `wavepath devices`");
+            "pocl-opencl-icd), and see `wavepath devices`; one that is installed may lack memory "
+            "(ulimit -v)");
     const std::string wanted = lower_case(selector);
     const auto usable = [&](const DeviceInfo& device) {
         return device.unusable.empty() && fits(device, wanted);

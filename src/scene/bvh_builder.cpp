@@ -262,7 +262,8 @@ Bvh build_bvh(const std::vector<float>& positions) {
         if (error == RTC_ERROR_OUT_OF_MEMORY)
             throw Error("Embree: no memory to start in; close other programs or raise `ulimit -v`");
         throw Error(
-            "Embree: no device (error {}); check its installation", static_cast<int>(error));
+            "Embree: no device (error {}); check its installation and `ulimit -v`",
+            static_cast<int>(error));
     }
     Attempt best = attempt(device.get(), positions, false, depth_limits.front());
     if (best.overlap > worthwhile_overlap)
