@@ -45,6 +45,8 @@ std::string text_of(const nlohmann::json& json, int indent) {
 std::map<std::string, std::string> metadata(
     const Device& device, const RenderJob& job, const RenderResult& result) {
     const std::string bias = job.settings.bias();
+    nlohmann::ordered_json settings = settings_report(job);
+    settings.erase("pool");  // decides no picture, so no byte of one either
     std::map<std::string, std::string> m{
         {"wavepath.scene", job.scene.name},
         {"wavepath.camera", job.settings.camera.name},
@@ -58,7 +60,7 @@ std::map<std::string, std::string> metadata(
         {"wavepath.device", device.info.platform + ", " + device.info.name},
         {"wavepath.driver", device.info.driver},
         {"wavepath.build", build_text()},
-        {"wavepath.settings", text_of(settings_report(job), -1)},
+        {"wavepath.settings", text_of(settings, -1)},
     };
     for (const std::string& warning : result.warnings) m["wavepath.warning"] += warning + "\n";
     return m;
