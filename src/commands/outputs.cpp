@@ -4,6 +4,7 @@
 #include "commands/progress.h"
 #include "error.h"
 #include "film/atomic_file.h"
+#include "film/auto_exposure.h"
 #include "film/exr_writer.h"
 #include "film/png_writer.h"
 #include "measure/report.h"
@@ -11,8 +12,10 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace wavepath {
 
@@ -40,6 +43,19 @@ std::vector<std::filesystem::path> files_of(const Outputs& outputs) {
 // The report's bytes; names of files need not be UTF-8.
 std::string text_of(const nlohmann::json& json, int indent) {
     return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// [stops]; none: auto.
+std::optional<double> fixed_exposure(const Outputs& outputs) {
+    if (outputs.exposure == "auto") return std::nullopt;
+    const char* const end = outputs.exposure.data() + outputs.exposure.size();
+    const char* const digits =
+        outputs.exposure.data() + (outputs.exposure.starts_with('+') ? 1 : 0);
+    double stops = 0;
+    const auto [rest, error] = std::from_chars(digits, end, stops);
+    if (error != std::errc{} || rest != end || !(std::abs(stops) <= 100))
+        throw Error("--exposure {}: use stops between -100 and 100, or auto", outputs.exposure);
+    return stops;
 }
 
 std::map<std::string, std::string> metadata(
@@ -80,14 +96,17 @@ void add_output_options(CLI::App& app, Outputs& outputs) {
                 name);
         })
         ->type_name("FILE");
-    app.add_option("--exposure", outputs.exposure, "Of the PNG: scales by 2^EV")->type_name("EV");
+    app.add_option(
+           "--exposure", outputs.exposure,
+           "Of the PNG: scales by 2^EV; auto: so that its mean brightness is middle grey; default "
+           "0")
+        ->type_name("EV|auto");
     app.add_option("--json", outputs.json, "Write a report of the render")->type_name("FILE");
     app.add_flag("--quiet", outputs.quiet, "Say nothing on the way but warnings and errors");
 }
 
 void check_outputs(const Outputs& outputs) {
-    if (!(std::abs(outputs.exposure) <= 100))
-        throw Error("--exposure {}: use stops between -100 and 100", outputs.exposure);
+    fixed_exposure(outputs);
     for (const auto& output : files_of(outputs)) check_writable(output);
 }
 
@@ -103,7 +122,11 @@ void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inpu
 
 void write_outputs(
     const Device& device, const RenderJob& job, RenderResult& result, const Outputs& outputs) {
+    const Image& image = result.film.image;
     result.film.image.metadata = metadata(device, job, result);
+    const auto fixed = fixed_exposure(outputs);
+    const double exposure = fixed ? *fixed : auto_exposure(image);
+    if (!fixed) spdlog::info("--exposure auto is {} EV", exposure);
     bool failed = false;
     const auto attempt = [&](const auto& write) {
         try {
@@ -116,9 +139,9 @@ void write_outputs(
     for (const auto& path : outputs.images)
         attempt([&] {
             if (path.extension() == ".exr")
-                write_exr(result.film.image, path);
+                write_exr(image, path);
             else
-                write_png(result.film.image, path, outputs.exposure);
+                write_png(image, path, exposure);
             spdlog::info(
                 "wrote {}: {} samples a pixel in {:.2f} s, relative error {}", path.string(),
                 result.samples, result.times.render,
@@ -126,7 +149,9 @@ void write_outputs(
         });
     if (!outputs.json.empty())
         attempt([&] {
-            AtomicFile(outputs.json).commit(text_of(render_report(device, job, result), 2) + "\n");
+            nlohmann::ordered_json report = render_report(device, job, result);
+            report["exposure_ev"] = exposure;
+            AtomicFile(outputs.json).commit(text_of(report, 2) + "\n");
         });
     if (result.interrupted)
         spdlog::warn("interrupted: there are {} samples a pixel", result.samples);

@@ -10,7 +10,7 @@ struct OutputFailed {};
 
 struct Outputs {
     std::vector<std::filesystem::path> images;
-    double exposure = 0;  // [stops] of PNG
+    std::string exposure = "0";  // of PNG: stops, or "auto"
     std::filesystem::path json;
     bool quiet = false;
 };

@@ -204,6 +204,11 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     app.add_option(
            "--env-radiance", o.environment_radiance, "Constant environment, or the scale of --env")
         ->type_name("R,G,B");
+    app.add_option(
+           "--lumens-per-watt", o.lumens_per_watt,
+           "Divides punctual lights; 683 where they are in candela and lux, as in Blender's "
+           "standard lighting mode; default 1")
+        ->type_name("LM/W");
     app.add_option("--pool", o.pool, "Path slots; default the device's")
         ->check(CLI::Range(1U, 1U << 24U))
         ->type_name("SLOTS");
@@ -233,9 +238,15 @@ RenderJob prepare_job(const RenderOptions& options) {
     job.scene_of_file = options.scene_of_file;
     settings.pool = options.pool;
     parse_budget(options, settings);
+    if (!(options.lumens_per_watt > 0) || !std::isfinite(options.lumens_per_watt))
+        throw Error(
+            "--lumens-per-watt {}: use a number above 0, 683 for lights in candela and lux",
+            options.lumens_per_watt);
 
     const auto start = std::chrono::steady_clock::now();
-    job.scene = load_gltf(options.scene, options.scene_of_file, options.max_texels << 20U);
+    job.scene = load_gltf(
+        options.scene, options.scene_of_file, options.max_texels << 20U, options.lumens_per_watt);
+    job.lumens_per_watt = options.lumens_per_watt;
     job.scene.environment = parse_environment(options);
     settings.camera = parse_camera(options, job.scene);
     parse_size(options.size, settings.camera, settings);

@@ -39,6 +39,7 @@ struct RenderOptions {
     uint32_t split_depth = 1;
     std::filesystem::path environment;
     std::string environment_radiance;
+    double lumens_per_watt = 1;
     uint32_t pool = 0;
     uint64_t max_texels = default_most_texels >> 20U;  // [2^20]
 };
@@ -50,7 +51,8 @@ void add_render_options(CLI::App& app, RenderOptions& options);
 struct RenderJob {
     Scene scene;
     RenderSettings settings;
-    std::string scene_of_file;  // as it was asked for; empty: the file's default
+    std::string scene_of_file;   // as it was asked for; empty: the file's default
+    double lumens_per_watt = 1;  // by which the intensities of punctual lights were divided
     double load_seconds = 0;
 };
 

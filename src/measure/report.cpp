@@ -99,6 +99,7 @@ ordered_json settings_report(const RenderJob& job) {
                                ? ordered_json{settings.camera.x_mag, settings.camera.y_mag}
                                : ordered_json(nullptr)},
         {"environment", environment},
+        {"lumens_per_watt", job.lumens_per_watt},
         {"samples", settings.samples},
         {"time_limit_s", settings.seconds},
         {"target_error", settings.target_error},

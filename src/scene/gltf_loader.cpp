@@ -13,6 +13,7 @@
 #include "scene/transform.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace wavepath {
@@ -134,10 +135,36 @@ std::vector<std::string> ignored_extensions(const tinygltf::Model& model) {
     return lines;
 }
 
+// Blender's exporter means lumens unless told otherwise: its lamps are then this bright, and few
+// that are meant in watts are. [W/m^2] and [W/sr] of docs/conventions.md.
+bool looks_photometric(const PunctualLight& light) {
+    const float brightest = std::ranges::max(light.intensity);
+    return light.kind == LightKind::directional ? brightest >= 100 : brightest >= 300;
+}
+
+void scale_lights(Scene& scene, const std::string& generator, double lumens_per_watt) {
+    if (lumens_per_watt == 1 && generator.find("Blender") != std::string::npos &&
+        std::ranges::any_of(scene.lights, looks_photometric))
+        scene.ignored.emplace_back(
+            "lights this bright from Blender are in lumens as a rule; if the picture is white, use "
+            "--lumens-per-watt 683 or export in lighting mode Unitless");
+    for (PunctualLight& light : scene.lights)
+        for (float& channel : light.intensity) {
+            channel = static_cast<float>(double{channel} / lumens_per_watt);
+            if (!std::isfinite(channel))
+                throw Error(
+                    "--lumens-per-watt {}: light \"{}\" is brighter than floats can say; raise it",
+                    lumens_per_watt, one_line(light.name));
+        }
+}
+
 }  // namespace
 
 Scene load_gltf(
-    const std::filesystem::path& path, const std::string& selector, uint64_t most_texels) {
+    const std::filesystem::path& path,
+    const std::string& selector,
+    uint64_t most_texels,
+    double lumens_per_watt) {
     const GltfFile file = read_gltf_file(path);
     Scene scene;
     scene.name = path.string();
@@ -165,6 +192,7 @@ Scene load_gltf(
     drop_default_material_if_unused(scene);
     scene.ignored = ignored.lines();
     std::ranges::move(ignored_extensions(file.model), std::back_inserter(scene.ignored));
+    scale_lights(scene, file.model.asset.generator, lumens_per_watt);
     return scene;
 }
 

@@ -132,7 +132,8 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(cornell_box + " --seed -1", "0 to 4294967295");
     expect_refused(cornell_box + " --spp 4 --time 1", "give one of them");
     expect_refused(cornell_box + " --exposure nan", "--exposure nan");
-    expect_refused(cornell_box + " --exposure abc", "--exposure = abc: not a number");
+    expect_refused(cornell_box + " --exposure abc", "--exposure abc: use stops");
+    expect_refused(cornell_box + " --fov abc", "--fov = abc: not a number");
     expect_refused(cornell_box + " --env-radiance 1e39,1,1", "--env-radiance 1e39,1,1");
     expect_refused(cornell_box + " --json a.exr -o ./a.exr", "are one file");
     expect_refused(cornell_box + " --json " + cornell_box, "are one file");
