@@ -89,7 +89,7 @@ kernel void connect_through_media(
                 tau, extinction(media + (int)innermost - 1), max(end - start.t, 0.0f) * length);
         if (ends) {
             const int lamp = LAMPS_ON_LAMPS ? as_int(PLANE(shadows, SHADOW_LAMP)[slot]) : -1;
-            if (LAMPS_ON_LAMPS && lamp >= 0 && hit.primitive >= 0) {
+            if (lamp >= 0 && hit.primitive >= 0) {
                 const Hit shown =
                     shown_face(nodes, blocks, &cover, materials, origin, direction, length, hit);
                 triangle = triangles + (size_t)TRIANGLE_FLOATS * shown.primitive;
