@@ -167,11 +167,11 @@ def flip(reference, test):
     return np.clip(colour, 0, 1) ** (1 - np.clip(feature, 0, 1))
 
 
-def render(assets, scenario, width, height, spp, picture):
+def render(assets, scenario, width, height, options, picture):
     numbers = ",".join(str(x) for x in scenario["eye"] + scenario["target"])
     command = [PROGRAM, "render", assets / scenario["model"], "--size", f"{width}x{height}", f"--look-at={numbers}",
                "--fov", str(scenario["vfov_deg"]), "--env", assets / "env/lightroom_14b_reconstructed.hdr", "--spp",
-               str(spp), "--quiet", "-o", picture]
+               str(options.spp), "--layering", options.layering, "--quiet", "-o", picture]
     done = subprocess.run([str(x) for x in command], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         return done.stderr.strip()
@@ -184,7 +184,7 @@ def compare(assets, scenario, options, folder):
     factor = max(1, width // options.width)
     name = scenario["name"].removeprefix("khronos-")
     picture = Path(folder) / f"{name}.exr"
-    problem = render(assets, scenario, width * OVERSAMPLING, height * OVERSAMPLING, options.spp, picture)
+    problem = render(assets, scenario, width * OVERSAMPLING, height * OVERSAMPLING, options, picture)
     if problem:
         print(f"| {name} | {problem} | | | | | |")
         return
@@ -225,6 +225,7 @@ def main():
     parser.add_argument("scenarios", nargs="*")
     parser.add_argument("--spp", type=int, default=64, help="16 such pixels make one that is compared, at the usual width")
     parser.add_argument("--width", type=int, default=256, help="of the pictures compared, about")
+    parser.add_argument("--layering", choices=("conserving", "specification"), default="conserving", help="wavepath's")
     parser.add_argument("-o", "--output", type=Path, help="folder for pictures")
     options = parser.parse_intermixed_args()
     listing = options.assets / "goldens/goldens.json"

@@ -61,8 +61,8 @@ INLINE Reflectance gltf_reflectance(const Surface s, const float cosine) {
     return r;
 }
 
-// Means below this are taken for it: what they divide is as small, and its digits are the table's.
-#define LEAST_LAYER_MEAN 2e-4f
+// Means below this are taken for it: of mirrors, whose facets lose nothing.
+#define LEAST_LAYER_MEAN 1e-6f
 
 // 1 - E of the dielectric's layer.
 INLINE float layer_passes(const Surface s, const LayerAlbedo a) {

@@ -87,9 +87,9 @@ class WhitePlastic : public testing::Test {
             GTEST_SKIP() << "no cases beside the sample models (support/sample_files.h)";
     }
 
-    RenderResult render_case(const char* name, bool layers_conserve) const {
+    RenderResult render_case(const char* name, uint64_t samples, bool layers_conserve) const {
         const Scene scene = load_gltf(folder_ / name);
-        RenderSettings settings = square_settings("mis", scene.cameras.at(0), 32, 16);
+        RenderSettings settings = square_settings("mis", scene.cameras.at(0), 32, samples);
         settings.layers_conserve = layers_conserve;
         return render_scene(scene, settings);
     }
@@ -101,14 +101,14 @@ class WhitePlastic : public testing::Test {
 TEST_F(WhitePlastic, IsAsBrightAsItsDiffuseTwin) {
     for (const char* name : {"white_plastic_box.glb", "white_diffuse_box.glb"}) {
         SCOPED_TRACE(name);
-        const RenderResult result = render_case(name, true);
+        const RenderResult result = render_case(name, 96, true);
         EXPECT_TRUE(has_mean(image_mean(result), 1, {.bias = 0.05, .truth_error = 5e-3}));
         EXPECT_THAT(result.warnings, IsEmpty());
     }
 }
 
 TEST_F(WhitePlastic, ByTheLetterIsWarnedOf) {
-    const RenderResult result = render_case("white_plastic_box.glb", false);
+    const RenderResult result = render_case("white_plastic_box.glb", 16, false);
     EXPECT_GT(result.outlier.share, 0.15);
     EXPECT_THAT(
         result.warnings,
