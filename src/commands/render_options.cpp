@@ -6,6 +6,7 @@
 #include "scene/gltf_loader.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>

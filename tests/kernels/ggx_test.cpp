@@ -78,7 +78,8 @@ kernel void weights(
             m = normalize3(add3(wo, wi));
             pdf_w = wi.z * INV_PI_F;
         }
-        const float weight = wi.z > 0.0f ? ggx_eval(wo, wi, m, alpha) / pdf_w : 0.0f;
+        const float above = ggx_eval(wo, wi, m, alpha) / pdf_w;
+        const float weight = wi.z > 0.0f ? above : 0.0f;  // no branch: docs/devices.md, PoCL 6.0
         sum += weight;
         squares += weight * weight;
         largest = max(largest, weight);

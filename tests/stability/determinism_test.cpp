@@ -6,6 +6,7 @@
 #include "support/rendering.h"
 #include "support/temporary_folder.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
