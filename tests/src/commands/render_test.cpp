@@ -106,7 +106,8 @@ TEST_F(RenderCommand, StopsAtTheErrorAskedAndNamesItsBias) {
     const nlohmann::json report = json("a.json");
     EXPECT_LT(report["relative_error"], 0.2);
     EXPECT_NE(report["bias"].get<std::string>().find("--target-error"), std::string::npos);
-    EXPECT_EQ(read_exr(path("a.exr")).metadata.at("wavepath.bias"), report["bias"]);
+    EXPECT_EQ(
+        read_exr(path("a.exr")).metadata.at("wavepath.bias"), report["bias"].get<std::string>());
 }
 
 TEST_F(RenderCommand, StopsAtTheTimeAsked) {
