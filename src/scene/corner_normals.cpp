@@ -2,6 +2,8 @@
 
 #include "scene/transform.h"
 
+#include <cmath>
+
 namespace wavepath {
 
 std::array<Vec3d, 3> corner_normals(const Primitive& primitive, std::size_t triangle) {
@@ -12,12 +14,18 @@ std::array<Vec3d, 3> corner_normals(const Primitive& primitive, std::size_t tria
         minus(vec3_at(primitive.positions, vertices[2]), origin)));
     std::array<Vec3d, 3> normals;
     Vec3d sum{0, 0, 0};  // of the normals times their cosines to the face: whatever their signs
+    std::size_t behind = 0;
     for (std::size_t c = 0; c < 3; ++c) {
         normals[c] = vec3_at(primitive.normals, vertices[c]);
-        for (std::size_t k = 0; k < 3; ++k) sum[k] += dot(normals[c], face) * normals[c][k];
+        const double cosine = dot(normals[c], face);
+        behind += cosine < 0 ? 1 : 0;
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += cosine * normals[c][k];
     }
+    // thin leaves have normals some way beyond the horizon of their faces
+    constexpr double against = -0.4;  // cosine
+    const double limit = against * std::sqrt(dot(sum, sum));
     for (Vec3d& normal : normals)
-        if (dot(normal, face) < 0 && dot(normal, sum) < 0)
+        if (dot(normal, face) < 0 && (behind == 3 || dot(normal, sum) < limit))
             for (double& component : normal) component = -component;
     return normals;
 }

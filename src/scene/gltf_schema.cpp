@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -71,7 +72,7 @@ const char* name_of(Type type) {
         case Type::index:
             return "an integer from 0 to 2^31";
         case Type::size:
-            return "an integer from 0 to 2^53";
+            return "an integer from 0 on";
         default:
             return "an object";
     }
@@ -105,7 +106,7 @@ bool has_type(const Json& value, Type type) {
         case Type::index:
             return is_between(value, -1, 0x7FFFFFFF);
         case Type::size:
-            return is_between(value, 0, std::uint64_t{1} << 53U);
+            return is_between(value, 0, std::numeric_limits<std::uint64_t>::max());
         default:
             return value.is_object();
     }

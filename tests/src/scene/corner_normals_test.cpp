@@ -85,11 +85,25 @@ TEST(CornerNormals, LeaveAloneWhatAgreesWithItsNeighbours) {
     EXPECT_TRUE(kept({0.8F, 0, 0.6F, -0.8F, 0, 0.6F, 0, 0, 1}));
     // over the edge of a thin plate, on the side of the two others
     EXPECT_TRUE(kept({0.6F, 0, 0.8F, 0.6F, 0, 0.8F, 0.995F, 0, -0.1F}));
+    EXPECT_TRUE(kept({0, 0, 1, 0, 0, 1, -0.97F, 0, -0.24F}));
+    EXPECT_FALSE(kept({0.6F, 0, 0.8F, 0.6F, 0, 0.8F, -0.95F, 0, -0.3F}));
     EXPECT_FALSE(kept({0, 0, 1, 0, 0, -1, 0, 0, 1}));
     EXPECT_FALSE(kept({0, 0, -1, 0, 0, -1, 0, 0, -1}));
     // a triangle without an area has no side
     primitive.positions = {0, 0, 0, 1, 0, 0, 2, 0, 0};
     EXPECT_TRUE(kept({0, 0, 1, 0, 0, -1, 0, 1, 0}));
+}
+
+// Normals of a tetrahedron's corners are 70 degrees from its faces.
+TEST(CornerNormals, AreTurnedWhereAllAreBehind) {
+    Primitive primitive;
+    primitive.positions = {1, 1, 1, 1, -1, -1, -1, 1, -1};
+    primitive.indices = {0, 1, 2};
+    for (const float sign : {1.0F, -1.0F}) {
+        primitive.normals.clear();
+        for (const float x : primitive.positions) primitive.normals.push_back(sign * x);
+        EXPECT_GT(dot(corner_normals(primitive, 0)[0], {1, 1, 1}), 0);
+    }
 }
 
 TEST(CornerNormals, DoNotSplitTangents) {

@@ -232,9 +232,10 @@ TEST(GltfData, ReadsTheFilesOfOthers) {
     for (const char* name : {"bin-longer", "files", "matrix-rounding"}) {
         const auto folder = case_folder(name);
         if (folder.empty()) GTEST_SKIP() << "no folder of cases beside the checkout";
-        for (const auto& entry : std::filesystem::directory_iterator(folder))
-            if (entry.path().extension() == ".gltf")
-                EXPECT_EQ(error_of([&] { load_gltf(entry.path()); }), "") << entry.path();
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            if (entry.path().extension() != ".gltf") continue;
+            EXPECT_EQ(error_of([&] { load_gltf(entry.path()); }), "") << entry.path();
+        }
     }
 }
 

@@ -145,9 +145,7 @@ TEST(GltfFile, NamesRequiredExtensionsBeforeAnythingElse) {
 
 TEST(GltfFile, BoundsWhatItQuotes) {
     GltfBuilder gltf = triangle();
-    gltf.root["buffers"] = {
-        {{"byteLength", 36},
-         {"uri", "data:application/octet-stream;base64," + std::string(5000, '!')}}};
+    gltf.root["buffers"] = {{{"byteLength", 36}, {"uri", std::string(5000, '!')}}};
     EXPECT_THAT(load_error(gltf), AllOf(HasSubstr("..."), testing::SizeIs(testing::Lt(300U))));
 }
 

@@ -129,7 +129,7 @@ TEST(GltfSchema, NamesMembersOfTheWrongType) {
         {"/scenes/0/nodes/1", "1", "scene 0: nodes[1] is \"1\", not an integer"},
         {"/scene", 0.25, "scene is 0.25, not an integer"},
         {"/nodes", 3, "nodes is 3, not an array"},
-        {"/accessors/0/count", 2.5, "accessor 0: count is 2.5, not an integer from 0 to 2^53"},
+        {"/accessors/0/count", 2.5, "accessor 0: count is 2.5, not an integer from 0 on"},
         {"/accessors/0/byteOffset", -4, "accessor 0: byteOffset is -4, not an integer from 0"},
         {"/accessors/0/normalized", "no", "accessor 0: normalized is \"no\", not true or false"},
         {"/bufferViews/0/byteStride", "12", "bufferView 0: byteStride is \"12\", not an integer"},
