@@ -2,7 +2,7 @@
 // [Kelemen & Szirmay-Kalos 2001; Kulla & Conty 2017]. With Schlick's weight w = (1 - wo.m)^5,
 //   A = integral of D V (1 - w) cos,   B = integral of D V w cos,   M = 1 - A - B,
 // and M is what single scattering between microfacets loses. All from a table of 16 KiB
-// (scripts/layer_albedo.py) that is right to 2e-4 in M and 4e-4 in B, 3e-5 and 6e-5 on average.
+// (scripts/layer_albedo.py) that is right to 2e-4 in M and 4e-4 in B, 2e-5 and 6e-5 on average.
 #pragma once
 
 #include "materials/fresnel.cl"

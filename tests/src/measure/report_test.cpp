@@ -13,6 +13,7 @@ TEST(SettingsReport, NamesAllThatMakesThePicture) {
     options.fov = 30;
     options.environment_radiance = "1,2,3";
     options.sampler = "independent";
+    options.layering = "specification";
     options.splits = "1,1,2";
     options.split_depth = 3;
     options.termination = "roulette:0.5";
@@ -27,6 +28,7 @@ TEST(SettingsReport, NamesAllThatMakesThePicture) {
     EXPECT_EQ(report["environment"]["map"], "");
     EXPECT_EQ(report["environment"]["radiance"], nlohmann::ordered_json({1.0F, 2.0F, 3.0F}));
     EXPECT_EQ(report["sampler"], "independent");
+    EXPECT_EQ(report["layering"], "specification");
     EXPECT_EQ(report["splits"], nlohmann::ordered_json({1, 1, 2}));
     EXPECT_EQ(report["split_depth"], 3);
     EXPECT_EQ(report["termination"], "roulette:0.5");
