@@ -61,7 +61,7 @@ def missing_and_grazing(mu, alpha):
         above = np.arccos(np.clip((mu / (2 * c) - mu * c) / (sine * s), -1, 1))
         seen = np.maximum(np.arccos(np.clip(-mu * c / (sine * s), -1, 1)), above)
         missing += np.sum(density * (sine * s * (np.sin(seen) - np.sin(above)) + mu * c * (seen - above)))
-        cos_m = np.clip(sine * np.outer(s, np.ones(NODES.size)) * np.cos(np.outer(above, NODES)) + (mu * c)[:, None], 0, 1)
+        cos_m = np.clip(sine * s[:, None] * np.cos(np.outer(above, NODES)) + (mu * c)[:, None], 0, 1)
         cos_i = np.clip(2 * cos_m * c[:, None] - mu, 1e-30, 1)
         root_i = np.sqrt(alpha**2 + (1 - alpha**2) * cos_i**2)
         together = cos_i * root + mu * root_i
@@ -103,9 +103,9 @@ def settled(fine):
     nodes = fine[::2, ::2].copy()
     for _ in range(20):
         error = np.pad(halfway(nodes) - fine, 1, mode="edge")
-        low = np.minimum.reduce([error[i : i + fine.shape[0] : 2, j : j + fine.shape[1] : 2] for i in range(3) for j in range(3)])
-        high = np.maximum.reduce([error[i : i + fine.shape[0] : 2, j : j + fine.shape[1] : 2] for i in range(3) for j in range(3)])
-        nodes -= (low + high) / 4
+        height, width = fine.shape
+        around = [error[i:i + height:2, j:j + width:2] for i in range(3) for j in range(3)]
+        nodes -= (np.minimum.reduce(around) + np.maximum.reduce(around)) / 4
     return nodes
 
 
