@@ -2,7 +2,7 @@
 #include "build_paths.h"
 #include "shared/small_mesh.h"
 #include "support/environment_variable.h"
-#include "support/media.h"
+#include "support/partial_boundaries.h"
 #include "support/rendering.h"
 #include "support/temporary_folder.h"
 
@@ -85,6 +85,27 @@ TEST(Determinism, OfSplitsInTwoPools) {
     settings.pool = 500;
     settings.work_groups = {16, 64};
     expect_same_bits(first, render_scene(room(), settings));
+}
+
+// Fog and, on the floor, glass, both of which transmit in part.
+TEST(Determinism, OfPartialBoundariesInTwoPools) {
+    Scene scene = room();
+    add_box(
+        scene, in_part(boundary_of(medium_of(2, 0.9)), 0.7, 0.2), {-.9, -.9, -.9}, {.9, .85, .7},
+        Facing::outward);
+    add_box(scene, in_part(glass(1.5), 0.6), {0.2, -1, 0}, {0.7, -0.6, 0.5}, Facing::outward);
+    for (const uint32_t splits : {1U, 2U}) {
+        RenderSettings settings = uneven();
+        settings.samples = 5;
+        settings.method.distances = Distances::mis;
+        settings.splits = {splits, splits, splits};
+        const RenderResult first = render_scene(scene, settings);
+        ASSERT_TRUE(std::ranges::any_of(
+            first.profile, [](const ProfileRow& row) { return row.name == "find_contacts"; }));
+        settings.pool = 500;
+        settings.work_groups = {16, 64};
+        expect_same_bits(first, render_scene(scene, settings));
+    }
 }
 
 // 20480 triangles are traced by streams on a CPU; pools decide which rays share one.
