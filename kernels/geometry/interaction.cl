@@ -46,13 +46,14 @@ INLINE Interaction find_interaction(
     r.base = vec3(material->base_r, material->base_g, material->base_b);
     if (HAS_VERTEX_COLORS) r.base = mul3(r.base, interpolate(triangle, TRIANGLE_COLORS, u, v));
     r.light = front || material->double_sided ? as_uint(triangle[TRIANGLE_LIGHT]) : NO_LIGHT;
+    if (HAS_LAMP_CONTACTS) r.light = r.light == AT_LAMP ? NO_LIGHT : r.light;
     return r;
 }
 
 // Whether the face of the triangle that a ray of this direction meets emits.
 INLINE int emits_towards(
     global const float* triangle, global const DeviceMaterial* materials, const Vec3 direction) {
-    const int emits = as_uint(triangle[TRIANGLE_LIGHT]) != NO_LIGHT;
+    const int emits = as_uint(triangle[TRIANGLE_LIGHT]) < AT_LAMP;
     const int front = dot3(triangle_cross(triangle), direction) < 0.0f;
     return emits & (front | (materials[as_int(triangle[TRIANGLE_MATERIAL])].double_sided != 0));
 }

@@ -53,11 +53,12 @@ SHARED_SIZE(DeviceMedium, 48);
 // A triangle is TRIANGLE_FLOATS floats in scene order: these, then what the scene's vertices have
 // (geometry/attributes.cl).
 #define TRIANGLE_MATERIAL 0    // (uint bits)
-#define TRIANGLE_LIGHT 1       // (uint bits) row of the light table, or NO_LIGHT
+#define TRIANGLE_LIGHT 1       // (uint bits) row of the light table, NO_LIGHT or AT_LAMP
 #define TRIANGLE_CORNERS 2     // 3 x (x, y, z)
 #define TRIANGLE_BITANGENT 11  // bitangent = this (1 or -1) * cross(normal, tangent)
 #define TRIANGLE_ATTRIBUTES 12
 #define NO_LIGHT 0xFFFFFFFFu
+#define AT_LAMP 0xFFFFFFFEu  // no light, but one touches it
 
 // Kinds of a DeviceLight.
 #define LIGHT_TRIANGLE 0u

@@ -42,7 +42,10 @@ kernel void find_contacts(
     int is_wall = (material->boundary == BOUNDARY_OPAQUE) & (material->transmission > 0.0f);
     int is_opaque = (material->boundary == BOUNDARY_OPAQUE) & !is_wall;
     if (material->boundary >= BOUNDARY_INDEX_MATCHED) return;
-    if (!HAS_LAMP_CONTACTS && is_opaque) return;
+    if (is_opaque) {
+        if (!HAS_LAMP_CONTACTS) return;
+        if (as_uint(triangle[TRIANGLE_LIGHT]) == NO_LIGHT) return;
+    }
     const Vec3 origin = load3(PLANE(rays, RAY_ORIGIN_X), stride, slot);
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
     const Cover cover =

@@ -108,30 +108,31 @@ bool has_contacts(const Scene& scene, const NormalisedScene& geometry, const Bvh
     return false;
 }
 
-LampContacts lamp_contacts(
+LampContacts mark_lamp_contacts(
     const Scene& scene,
     const NormalisedScene& geometry,
-    const std::vector<uint32_t>& triangle_lights,
-    const Bvh& bvh) {
+    const Bvh& bvh,
+    std::vector<uint32_t>& triangle_lights) {
     LampContacts found;
     const auto material_of = [&](std::size_t t) -> const Material& {
         return scene.materials[geometry.materials[t]];
     };
-    for (std::size_t t = 0; t < geometry.triangle_count() && !found.lamps; ++t) {
-        if (triangle_lights[t] == NO_LIGHT) continue;
+    for (std::size_t t = 0; t < geometry.triangle_count(); ++t) {
+        if (triangle_lights[t] >= AT_LAMP) continue;
         const Triangle lamp = triangle_at(geometry, t);
         any_near(bvh, lamp, [&](std::size_t other) {
-            const bool emits = triangle_lights[other] != NO_LIGHT;
-            if (other == t || material_of(other).boundary != Boundary::opaque ||
-                (found.surfaces && !emits))
+            uint32_t& light = triangle_lights[other];
+            if (other == t || light == AT_LAMP || material_of(other).boundary != Boundary::opaque)
                 return false;
             const Triangle face = triangle_at(geometry, other);
             if (!touches(lamp, face)) return false;
             found.surfaces = true;
-            found.lamps =
-                emits && (material_of(t).double_sided || material_of(other).double_sided ||
-                          dot(lamp.normal, face.normal) > 0);
-            return found.lamps;
+            if (light == NO_LIGHT)
+                light = AT_LAMP;
+            else
+                found.lamps = found.lamps || material_of(t).double_sided ||
+                              material_of(other).double_sided || dot(lamp.normal, face.normal) > 0;
+            return false;
         });
     }
     return found;

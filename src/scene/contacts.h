@@ -21,11 +21,11 @@ struct LampContacts {
     bool lamps = false;     // something that emits to the same side does
 };
 
-// `triangle_lights`: LightTables::triangle_lights.
-LampContacts lamp_contacts(
+// Makes AT_LAMP what touches one in `triangle_lights` (LightTables), where that is NO_LIGHT.
+LampContacts mark_lamp_contacts(
     const Scene& scene,
     const NormalisedScene& geometry,
-    const std::vector<uint32_t>& triangle_lights,
-    const Bvh& bvh);
+    const Bvh& bvh,
+    std::vector<uint32_t>& triangle_lights);
 
 }  // namespace wavepath

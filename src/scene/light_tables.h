@@ -12,8 +12,9 @@ namespace wavepath {
 enum class LightChoice { area, power };
 
 struct LightTables {
-    std::vector<DeviceLight> lights;            // what light sampling chooses from; may be empty
-    std::vector<uint32_t> triangle_lights;      // one a triangle: its row of `lights`, or NO_LIGHT
+    std::vector<DeviceLight> lights;  // what light sampling chooses from; may be empty
+    std::vector<uint32_t>
+        triangle_lights;  // one a triangle: its row of `lights`, NO_LIGHT or AT_LAMP
     std::vector<EnvironmentEntry> environment;  // of a map
     float environment_pmf = 0;                  // chance that the environment is chosen
     float environment_left = 0;                 // RenderParams::environment_left

@@ -219,7 +219,7 @@ RenderResult render(
     RenderResult result;
     Stopwatch watch;
     const NormalisedScene geometry = normalise(scene);
-    const LightTables tables = build_light_tables(
+    LightTables tables = build_light_tables(
         scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
     const MediaTables media = build_media_tables(scene, geometry);
     result.warnings = media.warnings;
@@ -243,7 +243,7 @@ RenderResult render(
     result.times.normalise = watch.lap();
     Bvh bvh = build_bvh(geometry.positions);
     if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
-    const LampContacts at_lamps = lamp_contacts(scene, geometry, tables.triangle_lights, bvh);
+    const LampContacts at_lamps = mark_lamp_contacts(scene, geometry, bvh, tables.triangle_lights);
     features.lamp_contacts = at_lamps.surfaces;
     features.lamps_on_lamps = at_lamps.lamps;
     features.contacts = at_lamps.surfaces || ((features.dielectrics || features.transmission) &&

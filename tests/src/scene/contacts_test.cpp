@@ -86,8 +86,9 @@ TEST(Contacts, AreFoundInLargeMeshes) {
 
 LampContacts lamp_contacts_of(const Scene& scene) {
     const NormalisedScene geometry = normalise(scene);
-    const LightTables lights = build_light_tables(scene, geometry, LightChoice::power, false);
-    return lamp_contacts(scene, geometry, lights.triangle_lights, build_bvh(geometry.positions));
+    LightTables lights = build_light_tables(scene, geometry, LightChoice::power, false);
+    return mark_lamp_contacts(
+        scene, geometry, build_bvh(geometry.positions), lights.triangle_lights);
 }
 
 TEST(Contacts, OfLampsAreFoundInTheirPlane) {
@@ -108,6 +109,13 @@ TEST(Contacts, OfLampsAreFoundInTheirPlane) {
         EXPECT_TRUE(with(lambert(grey(0), grey(1), true), 0, facing).lamps);
     }
     EXPECT_FALSE(with(boundary_of({}), 0, 1).surfaces) << "rays pass it";
+    Scene room = scene_named("floor, ceiling, lamp");
+    for (const double z : {-1., 0.}) add_square(room, lambert(grey(1)), {0, 0, z}, {0, 0, 1}, 4);
+    add_square(room, lamp, {0, 0, 0}, {0, 0, -1}, 1);
+    const NormalisedScene geometry = normalise(room);
+    std::vector<uint32_t> lights{NO_LIGHT, NO_LIGHT, NO_LIGHT, NO_LIGHT, 0, 1};
+    mark_lamp_contacts(room, geometry, build_bvh(geometry.positions), lights);
+    EXPECT_EQ(lights, (std::vector<uint32_t>{NO_LIGHT, NO_LIGHT, AT_LAMP, AT_LAMP, 0, 1}));
     Scene alone = scene_named("lamps side by side");
     add_square(alone, lamp, {0, 0, 0}, {0, 0, 1}, 1);
     add_square(alone, lamp, {1, 0, 0}, {0, 0, 1}, 1);
