@@ -28,13 +28,15 @@
 namespace {
 
 constexpr int exit_failure = 1;
+constexpr int exit_cut = 2;
 constexpr int exit_signalled = 128;  // plus the signal's number, as in a shell
 
 constexpr const char* notes =
-    "Exit status: 0 done; 1 an error, said in one line on standard error; 130 interrupted by "
-    "Ctrl-C,\n"
-    "129 by SIGHUP, 143 by SIGTERM, 152 by SIGXCPU: the picture is written with the samples taken "
-    "so far.\n"
+    "Exit status: 0 done; 1 an error, said in one line on standard error; 2 the picture is "
+    "written, but\n"
+    "paths without end were cut and their light is missing; 130 interrupted by Ctrl-C, 129 by "
+    "SIGHUP,\n"
+    "143 by SIGTERM, 152 by SIGXCPU: the picture is written with the samples taken so far.\n"
     "\n"
     "Environment: OCL_ICD_VENDORS, which OpenCL drivers are seen; POCL_MAX_PTHREAD_COUNT, the "
     "cores\n"
@@ -98,6 +100,8 @@ int run(int argc, char** argv) {
                 std::strerror(errno));
     } catch (const CLI::ParseError& error) {
         return usage_error(app, error);
+    } catch (const wavepath::PathsCut&) {
+        return exit_cut;
     } catch (const wavepath::Interrupted& interrupted) {
         return exit_signalled + interrupted.signal;
     } catch (const wavepath::OutputFailed&) {

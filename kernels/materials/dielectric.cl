@@ -28,6 +28,35 @@ INLINE Interface fresnel_interface(const float cosine, const float ior_i, const 
     return r;
 }
 
+// The first so many scatterings of a path reflect totally by the vertex normal, the next so many by
+// the face's own, and so in turn. Either alone may send light round for ever, vertex normals in a
+// ball as in a whispering gallery, faces in a cube; what is steady for one is not for the other.
+// The eye follows no light so far. A power of two.
+#define TOTAL_REFLECTIONS_BY_ONE 16u
+
+INLINE int is_reflected_totally(const float cosine, const float ior_i, const float ior_t) {
+    const float eta = ior_i / ior_t;
+    return eta * eta * fma(-cosine, cosine, 1.0f) >= 1.0f;
+}
+
+// The normal of the interface where the shading normal `n` and the face's `ng` differ; `wo`: unit,
+// towards the viewer, seen from the front of both, in the world. Vertex normals alone would trap
+// what has entered a clear body: on a chord of a ball they are those of a point further out, and
+// reflect totally what the ball itself would let go. So total reflection needs both; what leaves
+// against the vertex normal leaves by the face.
+INLINE Vec3 interface_normal(
+    const Vec3 n,
+    const Vec3 ng,
+    const Vec3 wo,
+    const float ior_i,
+    const float ior_t,
+    const uint scatterings) {
+    const int by_n = is_reflected_totally(dot3(n, wo), ior_i, ior_t);
+    const int by_face = is_reflected_totally(dot3(ng, wo), ior_i, ior_t);
+    const int turn_of_face = (scatterings & TOTAL_REFLECTIONS_BY_ONE) != 0u;
+    return select3(by_n & (!by_face | turn_of_face), ng, n);
+}
+
 // Equal indices refract nothing, whatever the roughness.
 INLINE int dielectric_is_rough(const float alpha, const float ior_i, const float ior_t) {
     return alpha >= MIRROR_ALPHA && ior_i != ior_t;

@@ -12,6 +12,8 @@
 #define FATE_ENDED 2u      // its path is over
 #define FATE_CONNECTED 4u  // it traced a connection to a light
 
+#define FATE_CUT 16u  // it was ended for its length, MAX_SCATTERINGS
+
 #define FATE_RESUMED \
     8u  // it goes on at a branch vertex: no ray to trace (written by resume_branch)
 
@@ -20,14 +22,15 @@
 
 // What the host reads after every iteration, one a chunk.
 typedef struct {
-    shared_uint active;          // slots with work,
-    shared_uint resumed;         // of which these need no ray
-    shared_uint runaway_pixel;   // of a path that passed MAX_SCATTERINGS, + 1; 0: none
-    shared_uint runaway_sample;  // and its sample
+    shared_uint active;      // slots with work,
+    shared_uint resumed;     // of which these need no ray
+    shared_uint cut;         // paths ended for their length, MAX_SCATTERINGS
+    shared_uint cut_pixel;   // of the first of them, in order of pixels and samples
+    shared_uint cut_sample;  // and its sample
 } ChunkState;
-SHARED_SIZE(ChunkState, 16);
+SHARED_SIZE(ChunkState, 20);
 
-// A path this long stops the run with an error: cutting it silently would be bias.
+// A path this long is ended, counted and located: what it would still have brought is missing.
 #define MAX_SCATTERINGS 1000000u
 
 #endif

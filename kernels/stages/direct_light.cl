@@ -73,7 +73,7 @@ kernel void direct_light(
     }
     const Vec3 p = load3(PLANE(surfaces, SURFACE_X), stride, slot);
     const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
-    const Vec3 n = load_shading_normal(surfaces, stride, slot);
+    Vec3 n = load_shading_normal(surfaces, stride, slot);
     const Surface surface = load_surface(materials, surfaces, stride, slot);
 
     const int is_wall = HAS_TRANSMISSION && !in_medium && surface.transmission > 0.0f;
@@ -125,8 +125,13 @@ kernel void direct_light(
 
     // what it brings: throughput * f_r cos * L_e / pdf_w, weighted against the bsdf's chance to
     // find it
+    const Vec3 viewer = scale3(direction, -1.0f);
+    if (ROUGH_DIELECTRICS && HAS_SHADING_NORMALS) {
+        const Vec3 bent = interface_normal(n, ng, viewer, ior_i, ior_t, scattering);
+        n = select3(refracts, bent, n);
+    }
     const Frame frame = frame_around(n);
-    const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
+    const Vec3 wo = to_local(frame, viewer);
     Vec3 value = mul3(load3(PLANE(throughputs, THROUGHPUT_R), stride, slot), s.radiance);
     const Scattered scattered = scatter_towards(surface, frame, ng, wo, s.wi);
     Vec3 f = scattered.value;

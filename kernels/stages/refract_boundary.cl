@@ -36,7 +36,6 @@ kernel void refract_boundary(
     if (material->boundary != BOUNDARY_DIELECTRIC) return;
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
     const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
-    const Frame frame = frame_around(load_shading_normal(surfaces, stride, slot));
     const uint stack = as_uint(PLANE(path_media, MEDIUM_STACK)[slot]);
     uint crossed;
     Vec3 passed = load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot);
@@ -56,10 +55,14 @@ kernel void refract_boundary(
     const Sample2 u = unit_pair(scattering_pair(seed, index, branch, scattering, PAIR_DIRECTION));
     const float choice =
         unit_float(scattering_pair(seed, index, branch, scattering, PAIR_CHOICE).v);
-    const Vec3 wo = to_local(frame, scale3(direction, -1.0f));
+    const Vec3 viewer = scale3(direction, -1.0f);
     const float ior_i = refractive_index(media, stack);
     const float ior_t = refractive_index(media, crossed);
     const float alpha = HAS_LOBE_TEXTURES ? PLANE(surfaces, SURFACE_ALPHA)[slot] : material->alpha;
+    Vec3 n = load_shading_normal(surfaces, stride, slot);
+    if (HAS_SHADING_NORMALS) n = interface_normal(n, ng, viewer, ior_i, ior_t, scattering);
+    const Frame frame = frame_around(n);
+    const Vec3 wo = to_local(frame, viewer);
     const DielectricSample s = dielectric_sample(wo, alpha, ior_i, ior_t, u, choice);
     const Vec3 side = scale3(ng, s.reflects ? 1.0f : -1.0f);
     Vec3 wi = to_world(frame, s.wi);

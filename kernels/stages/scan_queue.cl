@@ -29,24 +29,29 @@ kernel void scan_queue(
     uint active = 0;
     uint resumed = 0;
     uint connections = 0;
-    uint runaway_pixel = 0;
-    uint runaway_sample = 0;
+    uint cut = 0;
+    uint cut_pixel = 0;
+    uint cut_sample = 0;
     for (uint slot = first; slot < last; ++slot) {
         const uint fate = fates[slot];
         active += fate & FATE_ACTIVE;
         connections += (fate & FATE_CONNECTED) / FATE_CONNECTED;
         resumed += (fate & FATE_RESUMED) / FATE_RESUMED;
-        if (!(fate & FATE_ENDED)) continue;
-        const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
-        row[min(scattering, DEPTH_BINS - 1u)] += 1;
-        if (scattering >= MAX_SCATTERINGS) {
-            runaway_pixel = PLANE(ids, ID_PIXEL)[slot] + 1;
-            runaway_sample = reverse_bits_32(PLANE(ids, ID_INDEX)[slot]);
+        if (fate & FATE_CUT) {
+            const uint pixel = PLANE(ids, ID_PIXEL)[slot];
+            const uint sample = reverse_bits_32(PLANE(ids, ID_INDEX)[slot]);
+            const int first = cut == 0 || pixel < cut_pixel;
+            cut_sample = first || (pixel == cut_pixel && sample < cut_sample) ? sample : cut_sample;
+            cut_pixel = first ? pixel : cut_pixel;
+            ++cut;
         }
+        if (!(fate & FATE_ENDED)) continue;
+        row[min(PLANE(ids, ID_SCATTERING)[slot], DEPTH_BINS - 1u)] += 1;
     }
     row[DEPTH_BINS] += connections;
     chunks[chunk].active = active;
     chunks[chunk].resumed = resumed;
-    chunks[chunk].runaway_pixel = runaway_pixel;
-    chunks[chunk].runaway_sample = runaway_sample;
+    chunks[chunk].cut = cut;
+    chunks[chunk].cut_pixel = cut_pixel;
+    chunks[chunk].cut_sample = cut_sample;
 }

@@ -60,7 +60,7 @@ std::optional<double> fixed_exposure(const Outputs& outputs) {
 
 std::map<std::string, std::string> metadata(
     const Device& device, const RenderJob& job, const RenderResult& result) {
-    const std::string bias = job.settings.bias();
+    const std::string bias = bias_of(job.settings, result);
     nlohmann::ordered_json settings = settings_report(job);
     settings.erase("pool");  // decides no picture, so no byte of one either
     std::map<std::string, std::string> m{
@@ -157,6 +157,7 @@ void write_outputs(
         spdlog::warn("interrupted: there are {} samples a pixel", result.samples);
     if (failed) throw OutputFailed();
     if (result.interrupted) throw Interrupted{interrupt_signal()};
+    if (result.cut_paths.count > 0) throw PathsCut();
 }
 
 }  // namespace wavepath

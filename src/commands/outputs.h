@@ -24,8 +24,12 @@ void check_outputs(const Outputs& outputs);
 // Throws Error for an output that is one of the inputs, or that is named twice.
 void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inputs);
 
+// Thrown when pictures have been written in which paths were cut; main answers with exit status 2.
+struct PathsCut {};
+
 // Writes what can be written and says in a line each what cannot. Throws OutputFailed at the end if
-// there was any such, else Interrupted if a signal stopped the render.
+// there was any such, else Interrupted if a signal stopped the render, else PathsCut if paths were
+// cut.
 void write_outputs(
     const Device& device, const RenderJob& job, RenderResult& result, const Outputs& outputs);
 

@@ -35,6 +35,14 @@ RenderResult run_job(const Device& device, const RenderJob& job, bool quiet) {
             "NaN or infinity",
             result.film.nonfinite.samples, result.film.nonfinite.x, result.film.nonfinite.y,
             result.film.nonfinite.sample);
+    if (result.cut_paths.count > 0)
+        spdlog::warn(
+            "{} cut after {} scatterings, the first in pixel ({}, {}), sample {}: their further "
+            "light is missing; use --termination roulette or roulette:q, which are unbiased, or "
+            "depth:D, which is biased",
+            result.cut_paths.count == 1 ? "1 path was"
+                                        : fmt::format("{} paths were", result.cut_paths.count),
+            MAX_SCATTERINGS, result.cut_paths.x, result.cut_paths.y, result.cut_paths.sample);
     return result;
 }
 

@@ -17,6 +17,9 @@ void Profile::add(std::size_t row, uint64_t items, const cl::Event& event) {
     ++rows_[row].launches;
     rows_[row].items += items;
     pending_.push_back({row, event});
+    if (pending_.size() < most_pending) return;
+    event.wait();
+    collect();
 }
 
 void Profile::collect() {

@@ -20,11 +20,16 @@ class Profile {
   public:
     // The row of this name, made if there is none.
     std::size_t row(const std::string& name);
+    // Of a launch on a queue in order. Waits for it and collects where `most_pending` are held: an
+    // event takes some 200 bytes, and a window has any number of launches.
     void add(std::size_t row, uint64_t items, const cl::Event& event);
 
     // Reads the times of launches that have finished; to be called after a blocking read. Where the
     // driver returns zeros, `device_clock` turns false and times stay 0.
     void collect();
+
+    static constexpr std::size_t most_pending = 4096;
+    std::size_t pending() const { return pending_.size(); }
 
     const std::vector<ProfileRow>& rows() const { return rows_; }
     bool device_clock() const { return device_clock_; }

@@ -181,8 +181,9 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
          {{"share", number(result.outlier.share)},
           {"x", result.outlier.x},
           {"y", result.outlier.y}}},
-        {"bias", job.settings.bias()},
+        {"bias", bias_of(job.settings, result)},
         {"nonfinite_samples", result.film.nonfinite.samples},
+        {"cut_paths", result.cut_paths.count},
         {"guided", result.guided},
         {"interrupted", result.interrupted},
         {"memory_bytes", memory_report(result)},
@@ -193,6 +194,11 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
             {"x", result.film.nonfinite.x},
             {"y", result.film.nonfinite.y},
             {"sample", result.film.nonfinite.sample}};
+    if (result.cut_paths.count > 0)
+        report["first_cut"] = {
+            {"x", result.cut_paths.x},
+            {"y", result.cut_paths.y},
+            {"sample", result.cut_paths.sample}};
     report["profile"] = profile_report(result);
     return report;
 }

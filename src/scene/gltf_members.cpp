@@ -73,7 +73,7 @@ constexpr Member members[] = {
     {"sparse", "indices", "sparse rows!"},
     {"sparse", "values", "sparse rows!"},
     {"sparse rows", "bufferView", "index!"},
-    {"sparse rows", "byteOffset", "index"},
+    {"sparse rows", "byteOffset", "size"},
     {"sparse rows", "componentType", "index"},
 
     {"bufferView", "name", "text"},

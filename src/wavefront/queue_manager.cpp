@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 namespace wavepath {
 
@@ -26,6 +27,13 @@ std::optional<StageType> stage_if(
 }
 
 }  // namespace
+
+void CutPaths::add(const CutPaths& more) {
+    if (more.count == 0) return;
+    if (count == 0 || std::tie(more.y, more.x, more.sample) < std::tie(y, x, sample))
+        std::tie(x, y, sample) = std::tie(more.x, more.y, more.sample);
+    count += more.count;
+}
 
 std::vector<std::string> QueueManager::kernel_files(const Features& features) {
     std::vector<std::string> names{"assign_units", "generate_rays", "intersect", "scatter_queue",
@@ -234,6 +242,7 @@ bool QueueManager::render(
         const FilmBand& band = film.band_of(window.first_pixel);
         fold_film_.launch(
             device_, window.pixels, params_, plan_, cells_, cell_flags_, band.planes, band.flags);
+        cut_.add(window_cut_);
     }
     device_.queue.finish();
     profile_.collect();
@@ -244,6 +253,7 @@ bool QueueManager::render(
 
 void QueueManager::start(const Window& window, RenderParams params) {
     image_width_ = params.width;
+    window_cut_ = {};
     params.stride = pool_.stride;
     params.first_pixel = window.first_pixel;
     params.window_pixels = window.pixels;
@@ -285,13 +295,9 @@ QueueManager::Work QueueManager::count_work(uint32_t slots, const Work& before) 
     for (const ChunkState& chunk : counts_.front().chunks) {
         work.active += chunk.active;
         work.resumed += chunk.resumed;
-        if (chunk.runaway_pixel != 0)
-            throw Error(
-                "pixel ({}, {}), sample {}: the path is still alive after {} scatterings: nothing "
-                "in the scene absorbs it; lower an albedo, part glass bodies that cross, or use "
-                "--termination depth:D (biased)",
-                (chunk.runaway_pixel - 1) % image_width_, (chunk.runaway_pixel - 1) / image_width_,
-                chunk.runaway_sample, MAX_SCATTERINGS);
+        window_cut_.add(
+            {chunk.cut, chunk.cut_pixel % image_width_, chunk.cut_pixel / image_width_,
+             chunk.cut_sample});
     }
     counts_.pop_front();
     closest_rays_ += work.active - work.resumed;

@@ -35,6 +35,14 @@ struct RayCounts {
     uint64_t connections = 0;            // rays traced by occlusion
 };
 
+// Paths ended at MAX_SCATTERINGS: what they would still have brought is missing in the picture.
+struct CutPaths {
+    uint64_t count = 0;
+    uint32_t x = 0, y = 0, sample = 0;  // the first, in order of pixels and samples
+
+    void add(const CutPaths& more);
+};
+
 class QueueManager {
   public:
     // `max_cells`: the most units of work of one window. `count_lag`: iterations by which the host
@@ -57,7 +65,6 @@ class QueueManager {
     // Takes the window's samples and folds them into the film. `params` says all but the window.
     // `stop` is asked every iteration. From when it says true the window gets as many more as it
     // has had, or 1000: the return value says whether it is whole; if not, the film is as before.
-    // Throws Error for a path of MAX_SCATTERINGS.
     bool render(
         const Window& window,
         RenderParams params,
@@ -69,6 +76,8 @@ class QueueManager {
 
     RayCounts ray_counts() const;
     uint64_t iterations() const { return iterations_; }
+    // Of all whole windows.
+    const CutPaths& cut_paths() const { return cut_; }
     std::size_t bytes() const;
 
   private:
@@ -119,6 +128,8 @@ class QueueManager {
     std::deque<Count> counts_;
     uint64_t iterations_ = 0;
     uint64_t closest_rays_ = 0;
+    CutPaths cut_;
+    CutPaths window_cut_;
     uint32_t image_width_ = 1;
 
     Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;

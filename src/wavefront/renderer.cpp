@@ -210,6 +210,17 @@ std::string RenderSettings::bias() const {
            (cut.empty() ? "" : "; " + cut);
 }
 
+std::string bias_of(const RenderSettings& settings, const RenderResult& result) {
+    const std::string bias = settings.bias();
+    if (result.cut_paths.count == 0) return bias;
+    return fmt::format(
+               "biased: {} cut after {} scatterings, whose further light is missing",
+               result.cut_paths.count == 1 ? "1 path was"
+                                           : fmt::format("{} paths were", result.cut_paths.count),
+               MAX_SCATTERINGS) +
+           (bias.empty() ? "" : "; " + bias);
+}
+
 RenderResult render(
     const Device& device,
     const Scene& scene,
@@ -346,6 +357,7 @@ RenderResult render(
     result.profile = profile.rows();
     result.device_clock = profile.device_clock();
     result.rays = queues.ray_counts();
+    result.cut_paths = queues.cut_paths();
     result.iterations = queues.iterations();
     result.triangles = geometry.triangle_count();
     result.dropped_triangles = geometry.dropped;

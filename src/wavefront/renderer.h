@@ -58,6 +58,7 @@ struct RenderResult {
     std::vector<ProfileRow> profile;
     bool device_clock = true;
     RayCounts rays;
+    CutPaths cut_paths;
     uint64_t iterations = 0;
     std::size_t triangles = 0, dropped_triangles = 0, lights = 0, bvh_nodes = 0, bvh_blocks = 0;
     std::size_t scene_bytes = 0, pool_bytes = 0, film_bytes = 0;  // on the device
@@ -68,11 +69,14 @@ struct RenderResult {
     bool interrupted = false;
 };
 
+// What settings and cut paths do to the expected value; empty: nothing.
+std::string bias_of(const RenderSettings& settings, const RenderResult& result);
+
 // `progress` is called after every pass over the picture. `stop` is asked all the time: once it
 // says true the render ends with its pass, or without it where a path does not end
 // (QueueManager::render), and the result is `interrupted`.
 // Throws Error where the scene has no light, or none that the method can find; where the device
-// lacks memory, before rendering; for a path that never ends.
+// lacks memory, before rendering.
 RenderResult render(
     const Device& device,
     const Scene& scene,

@@ -83,8 +83,8 @@ namespace {
     FIELD(DeviceTexture, s_1) FIELD(DeviceTexture, t_u) FIELD(DeviceTexture, t_v)                 \
     FIELD(DeviceTexture, t_1) FIELD(DeviceTexture, scale) FIELD(DeviceTexture, cutoff)            \
     STRUCT(ChunkState)                                                                            \
-    FIELD(ChunkState, active) FIELD(ChunkState, resumed) FIELD(ChunkState, runaway_pixel)          \
-    FIELD(ChunkState, runaway_sample)
+    FIELD(ChunkState, active) FIELD(ChunkState, resumed) FIELD(ChunkState, cut)                    \
+    FIELD(ChunkState, cut_pixel) FIELD(ChunkState, cut_sample)
 // clang-format on
 
 // A row of the table as one side sees it: where a field begins, or a struct ends.
