@@ -23,11 +23,12 @@ INLINE void store_hit(global float* hits, const size_t stride, const size_t slot
     PLANE(hits, HIT_V)[slot] = hit->v;
 }
 
-// A ray against slabs: t = plane * inverse + near (or far). The normalised scene lies within 0.5 of
-// the origin, so everything is at most reach = max|o| + 0.5 away along an axis. Rounding moves a
+// A ray against slabs: t = plane * inverse + near (or far). The unit cube lies within 0.5 of the
+// origin, so everything in it is at most reach = max|o| + 0.5 away along an axis. Rounding moves a
 // slab by at most 4 ulp of that (inverse, product, fma), and the sheared vertices of the triangle
 // test by 4 more; near bounds come nearer and far ones go farther by 16 ulp of it. So no box is
-// missed whose triangle the triangle test would hit, and it costs nothing a node.
+// missed whose triangle the triangle test would hit, and it costs nothing a node. Boxes outside the
+// unit cube are wider by what rounding of their own coordinates moves (scene/bvh_builder.cpp).
 typedef struct {
     float ix, iy, iz;  // 1 / direction, finite
     float near_x, near_y, near_z;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <new>
@@ -93,12 +94,18 @@ BvhNode empty_node() {
     return node;
 }
 
+// The kernels allow for what rounding of coordinates up to 0.5 moves; boxes outside the unit cube
+// are wider by what it moves their own.
 void set_box(BvhNode& node, unsigned child, const RTCBounds& box) {
     const std::array<float, 3> low{box.lower_x, box.lower_y, box.lower_z};
     const std::array<float, 3> high{box.upper_x, box.upper_y, box.upper_z};
+    float away = 0.5F;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        away = std::max({away, std::abs(low[axis]), std::abs(high[axis])});
+    const float margin = 0x1p-20F * (away - 0.5F);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        node.bounds[axis][0][child] = low[axis];
-        node.bounds[axis][1][child] = high[axis];
+        node.bounds[axis][0][child] = low[axis] - margin;
+        node.bounds[axis][1][child] = high[axis] + margin;
     }
 }
 

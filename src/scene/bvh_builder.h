@@ -13,8 +13,8 @@ struct Bvh {
 };
 
 // Builds with Embree's rtcBuildBVH: branching 8, surface-area heuristic, spatial splits where they
-// pay, in parallel. `positions`: 9 floats a triangle (three corners), finite, in normalised space
-// (within 0.5 of the origin: the kernels' margins rest on it); triangles of zero area are left out.
+// pay, in parallel. `positions`: 9 floats a triangle (three corners), finite, in normalised space;
+// triangles of zero area are left out.
 Bvh build_bvh(const std::vector<float>& positions);
 
 // Marks the triangles that let some rays pass (BVH_HOLES); one flag a triangle.

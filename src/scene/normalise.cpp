@@ -2,6 +2,7 @@
 
 #include "error.h"
 #include "scene/corner_normals.h"
+#include "scene/subdivide.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -73,17 +74,46 @@ struct Corner {
     std::size_t place;
 };
 
-// Appends `width` floats of `values` for each corner, of its vertex; `missing` where there are
-// none.
+// A triangle as the file has it.
+struct Source {
+    const Primitive& primitive;
+    const Matrix4& to_world;
+    bool mirrored;
+    std::array<Corner, 3> corners;
+};
+
+// What corners of these values have at barycentric `weights`; a corner's own bits at the corner.
+double blend(const Vec3d& weights, const Vec3d& values) {
+    double sum = -0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (weights[k] != 0) sum += weights[k] * values[k];
+    return sum;
+}
+
+Vec3d blend(const Vec3d& weights, const std::array<Vec3d, 3>& values) {
+    Vec3d sum;
+    for (std::size_t k = 0; k < 3; ++k)
+        sum[k] = blend(weights, Vec3d{values[0][k], values[1][k], values[2][k]});
+    return sum;
+}
+
+// Appends `width` floats of `values` for each corner of the piece; `missing` where there are none.
 void append_floats(
     std::vector<float>& to,
     const std::vector<float>& values,
     std::size_t width,
-    const std::array<Corner, 3>& corners,
+    const Source& source,
+    const Piece& piece,
     float missing) {
-    for (const Corner& corner : corners)
+    const auto at = [&](std::size_t corner, std::size_t k) {
+        return double{values[width * source.corners[corner].vertex + k]};
+    };
+    for (const PieceCorner& corner : piece)
         for (std::size_t k = 0; k < width; ++k)
-            to.push_back(values.empty() ? missing : values[width * corner.vertex + k]);
+            to.push_back(
+                values.empty() ? missing
+                               : static_cast<float>(
+                                     blend(corner.weights, Vec3d{at(0, k), at(1, k), at(2, k)})));
 }
 
 Vec3d transform_direction(const Matrix4& m, const Vec3d& d) {
@@ -92,41 +122,75 @@ Vec3d transform_direction(const Matrix4& m, const Vec3d& d) {
     return normalized(r);
 }
 
-// `face`: the normal of a triangle without vertex normals, normalised or not.
+// A mirroring node turns bitangents round against normals and tangents.
+void append_tangents(NormalisedScene& out, const Source& source, const Piece& piece) {
+    const std::vector<float>& all = source.primitive.tangents;
+    std::array<Vec3d, 3> tangents{};
+    for (std::size_t c = 0; !all.empty() && c < 3; ++c) {
+        const float* t = &all[4 * source.corners[c].place];
+        tangents[c] = transform_direction(source.to_world, {t[0], t[1], t[2]});
+    }
+    for (const PieceCorner& corner : piece) append(out.tangents, blend(corner.weights, tangents));
+    const float sign = all.empty() ? 1 : all[4 * source.corners[0].place + 3];
+    out.bitangents.push_back(source.mirrored ? -sign : sign);
+}
+
 void append_normals(
-    NormalisedScene& out,
-    const Primitive& primitive,
-    const Matrix4& to_world,
-    const Vec3d& face,
-    const std::array<Corner, 3>& corners) {
-    if (primitive.normals.empty()) {
-        for (std::size_t c = 0; c < 3; ++c) append(out.normals, normalized(face));
+    NormalisedScene& out, const Source& source, const Piece& piece, const Vec3d& face) {
+    std::array<Vec3d, 3> normals{face, face, face};
+    if (!source.primitive.normals.empty()) {
+        const auto stored = corner_normals(source.primitive, source.corners[0].place / 3);
+        for (std::size_t c = 0; c < 3; ++c)
+            normals[c] = transform_normal(source.to_world, stored[source.corners[c].place % 3]);
+    }
+    for (const PieceCorner& corner : piece) append(out.normals, blend(corner.weights, normals));
+}
+
+// Whether it has a shape but for rounding in double.
+bool has_area(const Piece& piece) {
+    const std::array<Vec3d, 3> p{piece[0].position, piece[1].position, piece[2].position};
+    const Vec3d face = face_cross(p);
+    double longest2 = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d edge = minus(p[(k + 1) % 3], p[k]);
+        longest2 = std::max(longest2, dot(edge, edge));
+    }
+    return std::sqrt(dot(face, face)) > 1e-6 * longest2;
+}
+
+// Corners are rounded to float first, as the device will see them.
+void append_piece(
+    NormalisedScene& out, const Source& source, const Piece& piece, const Attributes& attributes) {
+    const Primitive& primitive = source.primitive;
+    std::array<Vec3d, 3> p;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < 3; ++k) p[c][k] = static_cast<float>(piece[c].position[k]);
+    const Vec3d face = face_cross(p);
+    if (dot(face, face) < smallest_cross * smallest_cross) {
+        ++out.dropped;
+        if (has_area(piece)) ++out.lost;
         return;
     }
-    const std::array<Vec3d, 3> normals = corner_normals(primitive, corners[0].place / 3);
-    for (const Corner& corner : corners)
-        append(out.normals, transform_normal(to_world, normals[corner.place % 3]));
-}
-
-// A mirroring node turns bitangents round against normals and tangents.
-void append_tangents(
-    NormalisedScene& out,
-    const Primitive& primitive,
-    const Matrix4& to_world,
-    bool mirrored,
-    const std::array<Corner, 3>& corners) {
-    for (const Corner& corner : corners) {
-        const float* t =
-            primitive.tangents.empty() ? nullptr : &primitive.tangents[4 * corner.place];
-        append(out.tangents, t ? transform_direction(to_world, {t[0], t[1], t[2]}) : Vec3d{});
+    for (const Vec3d& corner : p) {
+        append(out.positions, corner);
+        out.reach = std::max(out.reach, std::sqrt(dot(corner, corner)));
     }
-    const float sign =
-        primitive.tangents.empty() ? 1 : primitive.tangents[4 * corners[0].place + 3];
-    out.bitangents.push_back(mirrored ? -sign : sign);
+    out.materials.push_back(primitive.material);
+    if (attributes.normals) append_normals(out, source, piece, normalized(face));
+    if (attributes.colors) append_floats(out.colors, primitive.colors, 3, source, piece, 1);
+    for (std::size_t k = 0; k < 2; ++k)
+        if (attributes.uvs[k]) append_floats(out.uvs[k], primitive.uvs[k], 2, source, piece, 0);
+    if (attributes.tangents) append_tangents(out, source, piece);
+    if (attributes.alphas) append_floats(out.alphas, primitive.alphas, 1, source, piece, 1);
 }
 
-// Adds the triangles of one instance; corners are rounded to float first, as the device will see
-// them.
+bool lies_in_unit_cube(const std::array<Vec3d, 3>& corners) {
+    return std::ranges::all_of(corners, [](const Vec3d& p) {
+        return std::ranges::all_of(p, [](double x) { return std::abs(x) <= 0.5; });
+    });
+}
+
+// Adds the triangles of one instance.
 void append_instance(
     NormalisedScene& out,
     const Primitive& primitive,
@@ -134,28 +198,18 @@ void append_instance(
     const Attributes& attributes) {
     const bool mirrored = dot(axis(to_world, 0), cross(axis(to_world, 1), axis(to_world, 2))) < 0;
     for (std::size_t t = 0; t + 2 < primitive.indices.size(); t += 3) {
-        std::array<Corner, 3> corners;
-        for (std::size_t c = 0; c < 3; ++c) corners[c] = {primitive.indices[t + c], t + c};
-        if (mirrored) std::swap(corners[1], corners[2]);
+        Source source{primitive, to_world, mirrored, {}};
+        for (std::size_t c = 0; c < 3; ++c) source.corners[c] = {primitive.indices[t + c], t + c};
+        if (mirrored) std::swap(source.corners[1], source.corners[2]);
         std::array<Vec3d, 3> p;
-        for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t c = 0; c < 3; ++c)
             p[c] = out.to_normalised(
-                transform_point(to_world, vec3_at(primitive.positions, corners[c].vertex)));
-            for (double& x : p[c]) x = static_cast<float>(x);
-        }
-        const Vec3d face = face_cross(p);
-        if (dot(face, face) < smallest_cross * smallest_cross) {
-            ++out.dropped;
+                transform_point(to_world, vec3_at(primitive.positions, source.corners[c].vertex)));
+        if (lies_in_unit_cube(p)) {
+            append_piece(out, source, whole(p), attributes);
             continue;
         }
-        for (const Vec3d& corner : p) append(out.positions, corner);
-        out.materials.push_back(primitive.material);
-        if (attributes.normals) append_normals(out, primitive, to_world, face, corners);
-        if (attributes.colors) append_floats(out.colors, primitive.colors, 3, corners, 1);
-        for (std::size_t k = 0; k < 2; ++k)
-            if (attributes.uvs[k]) append_floats(out.uvs[k], primitive.uvs[k], 2, corners, 0);
-        if (attributes.tangents) append_tangents(out, primitive, to_world, mirrored, corners);
-        if (attributes.alphas) append_floats(out.alphas, primitive.alphas, 1, corners, 1);
+        for (const Piece& piece : pieces_of(p)) append_piece(out, source, piece, attributes);
     }
 }
 
@@ -201,6 +255,10 @@ Vec3d NormalisedScene::to_normalised(const Vec3d& world) const {
     return p;
 }
 
+double coarseness_at(const Vec3d& p) {
+    return std::max({1.0, 2 * std::abs(p[0]), 2 * std::abs(p[1]), 2 * std::abs(p[2])});
+}
+
 Extent extent_of(const Scene& scene) {
     const Bounds bounds = world_bounds(scene);
     Extent extent;
@@ -217,8 +275,12 @@ Extent extent_of(const Scene& scene) {
 }
 
 NormalisedScene normalise(const Scene& scene) {
+    return normalise(scene, extent_of(scene));
+}
+
+NormalisedScene normalise(const Scene& scene, const Extent& extent) {
     NormalisedScene out;
-    out.extent = extent_of(scene);
+    out.extent = extent;
     Attributes attributes;
     for (const Instance& instance : scene.instances)
         attributes.add(scene.primitives[instance.primitive]);
@@ -226,7 +288,8 @@ NormalisedScene normalise(const Scene& scene) {
         append_instance(out, scene.primitives[instance.primitive], instance.to_world, attributes);
         out.ends.push_back(static_cast<uint32_t>(out.triangle_count()));
     }
-    if (out.materials.empty()) throw Error("{}: {}", scene.name, without_area(scene, out.extent));
+    if (out.materials.empty() && out.lost == 0)
+        throw Error("{}: {}", scene.name, without_area(scene, out.extent));
     for (const PunctualLight& light : scene.lights)
         out.lights.push_back(normalised_light(out, light));
     return out;

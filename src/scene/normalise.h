@@ -7,7 +7,7 @@
 
 namespace wavepath {
 
-// Bounding box of all instances: its centre and its longest side [m].
+// A cube of world space: of the bounding box of all instances, its centre and longest side [m].
 struct Extent {
     Vec3d centre{0, 0, 0};
     double metres = 1;
@@ -16,9 +16,11 @@ struct Extent {
 // Throws Error where the extent is zero or not finite.
 Extent extent_of(const Scene& scene);
 
-// The scene's triangles in one list, moved and scaled so that their bounding box is centred at the
-// origin and its longest side is 1: offsets and epsilons are then free of scale. world =
-// extent.centre + extent.metres * normalised.
+// The scene's triangles in one list, moved and scaled so that a cube, which is their bounding box
+// or what the camera looks at in a much larger one (scene/placement.h), is centred at the origin
+// and its side is 1: offsets and epsilons are then free of scale. world = extent.centre +
+// extent.metres
+// * normalised.
 struct NormalisedScene {
     Extent extent;
     std::vector<float> positions;           // 9 a triangle
@@ -34,14 +36,27 @@ struct NormalisedScene {
     std::vector<PunctualLight>
         lights;  // positions and ranges normalised; point and spot intensity / metres^2
     std::size_t dropped = 0;  // triangles of zero area, left out
+    std::size_t lost = 0;     // of them: too small for floats here, but no lines or points
+    double reach = 0.8660254037844386;  // no corner is farther from the origin
+
+    // Whether triangles lie outside the unit cube.
+    bool is_far() const { return reach > 0.8661; }
 
     std::size_t triangle_count() const { return materials.size(); }
     Vec3d to_normalised(const Vec3d& world) const;
 };
 
+// By how much rounding at p exceeds that in the unit cube, and so ray_offset of the kernels
+// RAY_OFFSET: 1 or more.
+double coarseness_at(const Vec3d& p);
+
 // Applies node transforms in double. A mirroring transform (negative determinant) reverses the
-// winding, so that fronts stay fronts. Throws Error where nothing with an area is left or the
-// extent is not finite.
+// winding, so that fronts stay fronts. Throws Error where nothing has an area or the extent is not
+// finite.
 NormalisedScene normalise(const Scene& scene);
+
+// The same about another cube than the bounding box: triangles that leave it are cut into pieces
+// that are small beside their distance from it (scene/subdivide.h).
+NormalisedScene normalise(const Scene& scene, const Extent& extent);
 
 }  // namespace wavepath
