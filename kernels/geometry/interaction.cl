@@ -9,9 +9,18 @@
 #include "shared/path.h"
 #include "shared/scene.h"
 
-// How far a ray starts off its surface, along the geometric normal. The scene is normalised, so one
-// number serves all: hit points from barycentrics are right to 1e-7, a tenth of this.
+// How far a ray starts off its surface, along the geometric normal, in the unit cube. The scene is
+// normalised, so one number serves all: hit points from barycentrics are right to 1e-7, a tenth of
+// this.
 #define RAY_OFFSET 0x1p-20f
+
+// The same at p: outside the unit cube rounding grows with the distance from it, and triangles with
+// it (scene/subdivide.h). Not by the largest coordinate: of three absolute values LLVM's SLP pass
+// makes a vector, and the kernels around them stay scalar on PoCL.
+INLINE float ray_offset(const Vec3 p) {
+    if (!HAS_FAR_GEOMETRY) return RAY_OFFSET;
+    return RAY_OFFSET * sqrt(max(1.0f, 4.0f * dot3(p, p)));
+}
 
 typedef struct {
     Vec3 p;     // position [normalised]
@@ -97,5 +106,5 @@ load_shading_normal(global const float* surfaces, const size_t stride, const siz
 
 // The start of a ray that leaves the surface on the side of the normal `ng`.
 INLINE Vec3 leave(const Vec3 p, const Vec3 ng) {
-    return madd3(p, ng, RAY_OFFSET);
+    return madd3(p, ng, ray_offset(p));
 }

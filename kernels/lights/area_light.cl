@@ -57,8 +57,10 @@ INLINE LightSample area_light_sample(
     const float cos_light = fabs(cos_front);
     const int lit = (light->double_sided ? cos_light : cos_front) > 0.0f;
     s.pdf_w = area_light_pdf_w(triangle, light, from, distance2, cos_light);
-    // The connection ends just before the light, on the side it is seen from.
-    s.p = leave(point, scale3(face, cos_front > 0.0f ? 1.0f : -1.0f));
+    // The connection ends just before the light, on the side it is seen from, and as far before it
+    // as rounding at its start may carry it.
+    const float offset = max(ray_offset(point), ray_offset(from));
+    s.p = madd3(point, scale3(face, cos_front > 0.0f ? 1.0f : -1.0f), offset);
     s.radiance = scale3(
         vec3(light->intensity_r, light->intensity_g, light->intensity_b),
         lit ? 1.0f / s.pdf_w : 0.0f);

@@ -4,7 +4,8 @@
 #include "lights/area_light.cl"
 #include "shared/inline.h"
 
-#define OUTSIDE_SCENE 4.0f  // [normalised] farther than the scene is wide, seen from any surface
+// [normalised] farther than the scene is wide, seen from any surface
+#define OUTSIDE_SCENE (HAS_FAR_GEOMETRY ? 0x1p40f : 4.0f)
 
 INLINE LightSample punctual_sample(global const DeviceLight* light, const Vec3 from) {
     const Vec3 intensity = vec3(light->intensity_r, light->intensity_g, light->intensity_b);

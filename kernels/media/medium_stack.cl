@@ -35,12 +35,12 @@ INLINE uint cross_boundary(
     return enters ? enter_medium(stack, medium) : leave_medium(stack, medium);
 }
 
-// How far along a ray surfaces behind this triangle still touch it: RAY_OFFSET along its normal. A
-// grazing ray may leave a curved surface before that.
+// How far along a ray surfaces behind this triangle, met at p, still touch it: ray_offset along its
+// normal. A grazing ray may leave a curved surface before that.
 #define LEAST_COSINE 0x1p-8f
-INLINE float touching_distance(global const float* triangle, const Vec3 direction) {
+INLINE float touching_distance(global const float* triangle, const Vec3 p, const Vec3 direction) {
     const float cosine = fabs(dot3(normalize3(triangle_cross(triangle)), direction));
-    return RAY_OFFSET / max(cosine, LEAST_COSINE);
+    return ray_offset(p) / max(cosine, LEAST_COSINE);
 }
 
 // The ray goes on behind the boundary of this triangle, met at t, from these media into those.

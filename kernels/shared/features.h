@@ -77,6 +77,12 @@
 #ifndef LAMPS_ON_LAMPS
 #define LAMPS_ON_LAMPS 1  // and shines to the same side
 #endif
+#ifndef HAS_FAR_GEOMETRY
+#define HAS_FAR_GEOMETRY 1  // triangles lie outside the unit cube
+#endif
+#ifndef HAS_FAR_CAMERA
+#define HAS_FAR_CAMERA 1  // the eye is so far off that rays start at the scene
+#endif
 #ifndef ROUGH_DIELECTRICS
 #define ROUGH_DIELECTRICS 1  // some boundary refracts by microfacets
 #endif

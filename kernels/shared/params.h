@@ -5,8 +5,10 @@
 #include "shared/cl_types.h"
 
 typedef struct {
-    // camera: origin + direction of pixel (x, y) = corner + x * right + y * down
-    shared_float camera_x, camera_y, camera_z;  // [normalised] perspective: the eye
+    // camera: origin + direction of pixel (x, y) = corner + x * right + y * down; with
+    // HAS_FAR_CAMERA what it has beside `forward`, perspective, or the origin of the pixel's ray
+    shared_float camera_x, camera_y, camera_z;  // [normalised] perspective: the eye, or as far from
+                                                // it as rays start
     shared_float metres;                        // one unit of the normalised scene [m]
     shared_float corner_x, corner_y, corner_z;
     shared_uint orthographic;  // 1: the corner is a point, all rays run along camera_*
@@ -46,8 +48,9 @@ typedef struct {
     // the sphere that directions are aimed at [normalised] (lights/guide.cl)
     shared_float guide_x, guide_y, guide_z;
     shared_float guide_radius2;
+    shared_float forward_x, forward_y, forward_z;  // unit, the view's axis
 } RenderParams;
-SHARED_SIZE(RenderParams, 184);
+SHARED_SIZE(RenderParams, 196);
 
 // One row of the sample plan: which samples of every pixel a pass takes, counted from the pixel's
 // first.

@@ -178,7 +178,8 @@ kernel void direct_light(
     const Vec3 origin = select3(in_medium, p, leave(p, scale3(ng, side)));
     const Vec3 to_light = sub3(s.p, origin);
     if ((TINTED_BOUNDARIES || LAMPS_ON_LAMPS) && HAS_AREA_LIGHTS) {
-        const float reach = 1.0f + RAY_OFFSET / LEAST_COSINE / sqrt(dot3(to_light, to_light));
+        const float offset = max(ray_offset(origin), ray_offset(s.p));
+        const float reach = 1.0f + offset / LEAST_COSINE / sqrt(dot3(to_light, to_light));
         const int to_triangle = (t_max > 0.0f) & (light->kind == LIGHT_TRIANGLE);
         t_max = to_triangle ? reach : t_max;
     }

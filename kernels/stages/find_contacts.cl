@@ -1,5 +1,5 @@
 // Looks behind every dielectric face and thin wall that a ray met for what touches it: what lies
-// within RAY_OFFSET is one interface with it, since the ray that leaves starts beyond. An opaque
+// within ray_offset is one interface with it, since the ray that leaves starts beyond. An opaque
 // surface there is hit in its place, and glass in the place of a thin wall; boundaries are crossed
 // with it. Of a boundary that transmits in part the opaque share counts as an opaque surface. Of
 // opaque surfaces that touch one that emits towards the ray is hit (geometry/shown_face.cl).
@@ -54,7 +54,7 @@ kernel void find_contacts(
     if (material->boundary == BOUNDARY_DIELECTRIC)
         is_opaque = !boundary_is_met(&cover, materials, key, &shown);
     if (!HAS_LAMP_CONTACTS && is_opaque) return;
-    float end = shown.t + touching_distance(triangle, direction);
+    float end = shown.t + touching_distance(triangle, madd3(origin, direction, shown.t), direction);
     uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
     Vec3 tint = vec3(1.0f, 1.0f, 1.0f);
     if (material->boundary == BOUNDARY_DIELECTRIC && !is_opaque) {
@@ -79,7 +79,7 @@ kernel void find_contacts(
         if (is_opaque) break;
         if (replaces) {
             is_wall = 0;
-            end = hit.t + touching_distance(triangle, direction);
+            end = hit.t + touching_distance(triangle, madd3(origin, direction, hit.t), direction);
         }
         const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
         tint = scale3(tint, weight_of_crossing(stack, crossed, material->medium));

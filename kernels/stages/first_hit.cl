@@ -31,7 +31,7 @@ kernel void first_hit(
     const Vec3 base = select3(hit, load3(PLANE(surfaces, SURFACE_BASE_R), stride, slot), zero);
     const Vec3 n = select3(hit, load_shading_normal(surfaces, stride, slot), zero);
     float t = PLANE(hits, HIT_T)[slot];
-    if (HAS_MEDIA | HAS_CONTACTS) t += params.ray_start;
+    if (HAS_MEDIA | HAS_CONTACTS | HAS_FAR_CAMERA) t += params.ray_start;
     const float depth = hit ? t * params.metres : 0.0f;
     global float* albedo = PLANE(radiances, SUM_ALBEDO_R);
     global float* normal = PLANE(radiances, SUM_NORMAL_X);

@@ -86,10 +86,22 @@ kernel void generate_rays(
     const Vec3 camera = vec3(params.camera_x, params.camera_y, params.camera_z);
     const Vec3 film = madd3(madd3(corner, right, x), down, y);
     const int orthographic = params.orthographic != 0;
-    const Vec3 direction = select3(orthographic, camera, normalize3(film));
+    Vec3 direction = select3(orthographic, camera, normalize3(film));
     Vec3 origin = select3(orthographic, film, camera);
-    // from far off rounding of distances would decide what touches
-    if (HAS_MEDIA | HAS_CONTACTS) origin = madd3(origin, direction, params.ray_start);
+    if (HAS_FAR_CAMERA) {
+        // `camera` is where the view's axis has run ray_start. The ray's is beside it by a vector
+        // that is free of cancellation: cosine - 1 = -sine^2 / (1 + cosine).
+        const float tangent2 = dot3(film, film);
+        const float cosine = 1.0f / sqrt(1.0f + tangent2);
+        const float sine2 = tangent2 * cosine * cosine;
+        const Vec3 forward = vec3(params.forward_x, params.forward_y, params.forward_z);
+        const Vec3 beside = madd3(scale3(film, cosine), forward, -sine2 / (1.0f + cosine));
+        direction = select3(orthographic, camera, add3(forward, beside));
+        origin = select3(orthographic, film, madd3(camera, beside, params.ray_start));
+    } else if (HAS_MEDIA | HAS_CONTACTS) {
+        // from far off rounding of distances would decide what touches
+        origin = madd3(origin, direction, params.ray_start);
+    }
     store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, origin);
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, direction);
 

@@ -89,7 +89,7 @@ INLINE void pass_clear_boundaries(
         next = 0;
         go_on_behind(
             path_media, stride, slot, stack, crossed, hit.t, hit.primitive,
-            touching_distance(triangle, direction));
+            touching_distance(triangle, madd3(origin, direction, hit.t), direction));
         stack = crossed;
         hit = behind;
     }

@@ -36,7 +36,7 @@ __attribute__((noinline)) void pass(
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
     go_on_behind(
         path_media, stride, slot, stack, crossed, PLANE(hits, HIT_T)[slot], primitive,
-        touching_distance(triangle, direction));
+        touching_distance(triangle, load3(PLANE(surfaces, SURFACE_X), stride, slot), direction));
     PLANE(hits, HIT_PRIMITIVE)
     [slot] = as_float(max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
 }
@@ -59,14 +59,15 @@ kernel void pass_boundary(
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     if (material->boundary < BOUNDARY_INDEX_MATCHED) {
-        // Rays that a surface sends back start RAY_OFFSET above it. Where the path passed
+        // Rays that a surface sends back start ray_offset above it. Where the path passed
         // boundaries closer to it than that, they start before those. A branch vertex that is
         // resumed (at T_RESUMED) has been here before.
         const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
         const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
+        const float offset = ray_offset(load3(PLANE(surfaces, SURFACE_X), stride, slot));
         const float apart = PLANE(hits, HIT_T)[slot] - PLANE(path_media, MEDIUM_T)[slot];
         const int touch =
-            (apart >= 0.0f) & (apart * max(fabs(dot3(ng, direction)), LEAST_COSINE) <= RAY_OFFSET);
+            (apart >= 0.0f) & (apart * max(fabs(dot3(ng, direction)), LEAST_COSINE) <= offset);
         const int passed = as_int(PLANE(path_media, MEDIUM_PRIMITIVE)[slot]) != NO_BOUNDARY;
         const int sends_back = HAS_CONTACTS | ((material->boundary == BOUNDARY_OPAQUE) &
                                                (material->transmission == 0.0f));

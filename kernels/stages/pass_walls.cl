@@ -65,7 +65,9 @@ kernel void pass_walls(
     const uint stack = kept ? as_uint(PLANE(path_media, MEDIUM_BEFORE)[slot]) : before;
     go_on_behind(
         path_media, stride, slot, before, stack, t, primitive,
-        touching_distance(triangles + (size_t)TRIANGLE_FLOATS * primitive, direction));
+        touching_distance(
+            triangles + (size_t)TRIANGLE_FLOATS * primitive,
+            load3(PLANE(surfaces, SURFACE_X), stride, slot), direction));
     if (kept) PLANE(path_media, MEDIUM_BEFORE)[slot] = as_float(before);
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(HIT_BOUNDARY);
 }

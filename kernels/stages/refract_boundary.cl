@@ -82,9 +82,8 @@ kernel void refract_boundary(
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN
     const int continues = goes_on > 0.0f;
     PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? HIT_DIELECTRIC : HIT_ENDED);
-    store3(
-        PLANE(rays, RAY_ORIGIN_X), stride, slot,
-        leave(load3(PLANE(surfaces, SURFACE_X), stride, slot), side));
+    const Vec3 position = load3(PLANE(surfaces, SURFACE_X), stride, slot);
+    store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, leave(position, side));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);
     PLANE(throughputs, THROUGHPUT_PDF)[slot] = pdf_w;
@@ -94,5 +93,5 @@ kernel void refract_boundary(
     start_at_origin(path_media, stride, slot);
     // what `leave` skipped lies in the medium too, and matters to a dense one; a grazing ray may
     // have left its curved surface before that
-    PLANE(path_media, MEDIUM_T)[slot] = -RAY_OFFSET / max(dot3(side, wi), LEAST_COSINE);
+    PLANE(path_media, MEDIUM_T)[slot] = -ray_offset(position) / max(dot3(side, wi), LEAST_COSINE);
 }

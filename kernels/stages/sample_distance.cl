@@ -16,10 +16,10 @@
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
 
-// A stop keeps this distance from boundaries, half an ulp of a distance across the scene, so that
-// rounding seldom carries it over one; half a segment if that is shorter. Eight times as much made
-// dense media dark (docs/stability.md).
-#define STOP_MARGIN 0x1p-24f
+// A stop keeps this part of ray_offset from boundaries, half an ulp of a distance across the scene,
+// so that rounding seldom carries it over one; half a segment if that is shorter. Eight times as
+// much made dense media dark (docs/stability.md).
+#define STOP_MARGIN 0x1p-4f
 
 kernel void sample_distance(
     constant const RenderParams* restrict settings,
@@ -134,8 +134,9 @@ kernel void sample_distance(
     event.weight = select3(scatters, event.weight, transmittance(tau));
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, mul3(throughput, event.weight));
 
-    const float margin = min(STOP_MARGIN, 0.5f * length);
-    // behind a dielectric a quarter of the way to the ray's origin, RAY_OFFSET / 4 deep
+    const float margin =
+        min(STOP_MARGIN * ray_offset(madd3(origin, direction, end)), 0.5f * length);
+    // behind a dielectric a quarter of the way to the ray's origin, ray_offset / 4 deep
     const float nearest = start > 0.0f ? margin : min(-0.25f * start, 0.5f * length);
     const float stop = start + clamp(event.distance, nearest, length - margin);
     const int passes_to = primitive == HIT_LEAVING ? HIT_MISS : primitive;

@@ -11,13 +11,14 @@
 namespace wavepath {
 namespace {
 
-constexpr double touching = 0x1p-19;       // twice RAY_OFFSET, for rounding
+constexpr double touching_near = 0x1p-19;  // twice RAY_OFFSET, for rounding
 constexpr double most_sine = 0.01;         // of faces that lie on one another but for rounding
-constexpr double least_overlap = 0x1p-21;  // faces of one surface meet at their sides
+constexpr double least_overlap = 0.25;  // of `touching`: faces of one surface meet at their sides
 
 struct Triangle {
     std::array<Vec3d, 3> corners;
     Vec3d normal;  // unit
+    double touching;
     Vec3d low, high;
 };
 
@@ -26,11 +27,14 @@ Triangle triangle_at(const NormalisedScene& geometry, std::size_t index) {
     for (std::size_t k = 0; k < 3; ++k) t.corners[k] = vec3_at(geometry.positions, 3 * index + k);
     t.normal =
         normalized(cross(minus(t.corners[1], t.corners[0]), minus(t.corners[2], t.corners[0])));
+    t.touching = touching_near * std::max(
+                                     {coarseness_at(t.corners[0]), coarseness_at(t.corners[1]),
+                                      coarseness_at(t.corners[2])});
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto [low, high] =
             std::minmax({t.corners[0][axis], t.corners[1][axis], t.corners[2][axis]});
-        t.low[axis] = low - touching;
-        t.high[axis] = high + touching;
+        t.low[axis] = low - t.touching;
+        t.high[axis] = high + t.touching;
     }
     return t;
 }
@@ -41,7 +45,7 @@ bool lies_beyond_a_side(const Triangle& a, const Triangle& b) {
         const Vec3d& from = a.corners[side];
         const Vec3d inwards = normalized(cross(a.normal, minus(a.corners[(side + 1) % 3], from)));
         if (std::ranges::all_of(b.corners, [&](const Vec3d& corner) {
-                return dot(inwards, minus(corner, from)) <= least_overlap;
+                return dot(inwards, minus(corner, from)) <= least_overlap * a.touching;
             }))
             return true;
     }
@@ -60,7 +64,7 @@ bool touches(const Triangle& a, const Triangle& b) {
         nearest = std::min(nearest, height);
         farthest = std::max(farthest, height);
     }
-    if (nearest > touching || farthest < -touching) return false;
+    if (nearest > a.touching || farthest < -a.touching) return false;
     return !lies_beyond_a_side(a, b) && !lies_beyond_a_side(b, a);
 }
 

@@ -30,8 +30,8 @@ Vec3d unit_normal(const Triangle& t) {
 }
 
 LightGuide sphere_about(const std::vector<Triangle>& lamps) {
-    Vec3d low{1, 1, 1};
-    Vec3d high{-1, -1, -1};
+    Vec3d low = lamps.front().front();
+    Vec3d high = low;
     for (const Triangle& lamp : lamps) {
         for (const Vec3d& corner : lamp) {
             for (std::size_t k = 0; k < 3; ++k) {

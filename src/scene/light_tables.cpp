@@ -2,6 +2,7 @@
 
 #include "scene/alias_table.h"
 #include "scene/texture_tables.h"
+#include "scene/transform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,14 @@ namespace wavepath {
 
 namespace {
 
-// Of the sphere around the normalised bounding box: power from infinity is what falls on its disc.
+// Of the sphere around the unit cube: power from infinity is what falls on its disc.
 constexpr double scene_radius = 0.8660254037844386;
+
+// What of its power a light at p sends to that sphere, beside a light within: far lamps of great
+// power would leave no samples to near ones.
+double share_of_power(const Vec3d& p) {
+    return std::min(1.0, scene_radius * scene_radius / dot(p, p));
+}
 
 double luminance(const Rgb& c) {
     return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
@@ -31,6 +38,12 @@ double triangle_area(const std::vector<float>& positions, std::size_t triangle) 
 // 1 - cos, right for narrow cones.
 double versine(double angle) {
     return 2 * std::sin(0.5 * angle) * std::sin(0.5 * angle);
+}
+
+Vec3d middle_of(const std::vector<float>& positions, std::size_t triangle) {
+    Vec3d sum{0, 0, 0};
+    for (std::size_t k = 0; k < 9; ++k) sum[k % 3] += positions[9 * triangle + k] / 3;
+    return sum;
 }
 
 DeviceLight punctual_light(const PunctualLight& light) {
@@ -207,7 +220,8 @@ LightTables build_light_tables(
         tables.lights.push_back(light);
         const double sides = material.double_sided ? 2 : 1;
         const double power = std::numbers::pi * sides * luminance(material.emission) * share;
-        weights.push_back(light.area * (choice == LightChoice::power ? power : 1.0));
+        const double sent = power * share_of_power(middle_of(geometry.positions, t));
+        weights.push_back(light.area * (choice == LightChoice::power ? sent : 1.0));
         area += light.area;
     }
     if (choice == LightChoice::area)
@@ -215,7 +229,10 @@ LightTables build_light_tables(
 
     for (const PunctualLight& light : geometry.lights) {
         tables.lights.push_back(punctual_light(light));
-        weights.push_back(choice == LightChoice::power ? punctual_power(light) : 1.0);
+        const bool is_somewhere = light.kind != LightKind::directional;
+        const double share =
+            geometry.is_far() && is_somewhere ? share_of_power(light.position) : 1.0;
+        weights.push_back(choice == LightChoice::power ? share * punctual_power(light) : 1.0);
     }
     if (scene.environment) {
         const Environment& environment = *scene.environment;

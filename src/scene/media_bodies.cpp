@@ -49,10 +49,13 @@ class Exact {
 };
 
 // Exporters round a corner differently in each of its triangles: those closer than 2^-21 are one.
+// Outside the unit cube they are rounded more: `coarseness` of those about it.
 class Welded {
   public:
+    explicit Welded(double coarseness) : apart_(0x1p-21 * coarseness) {}
+
     uint32_t number(const Point& p) {
-        constexpr double cells = 0x1p20;
+        const double cells = 0.5 / apart_;
         Cell cell;
         for (std::size_t k = 0; k < 3; ++k) cell[k] = std::lround(cells * p[k]);
         for (long x = -1; x <= 1; ++x)
@@ -69,12 +72,12 @@ class Welded {
   private:
     using Cell = std::array<long, 3>;
 
-    static bool is_near(const Point& a, const Point& b) {
-        constexpr float apart = 0x1p-21F;
-        return std::abs(a[0] - b[0]) < apart && std::abs(a[1] - b[1]) < apart &&
-               std::abs(a[2] - b[2]) < apart;
+    bool is_near(const Point& a, const Point& b) const {
+        return std::abs(a[0] - b[0]) < apart_ && std::abs(a[1] - b[1]) < apart_ &&
+               std::abs(a[2] - b[2]) < apart_;
     }
 
+    double apart_;
     std::map<Cell, std::pair<Point, uint32_t>> corners_;
 };
 
@@ -139,7 +142,10 @@ void add(MediaBody& body, const Face& face, const Scene& scene) {
 // Corners are told apart as written where that closes all, else those that nearly coincide are one.
 Corners best_corners_of(const std::vector<Face>& faces) {
     Corners corners = corners_of(faces, Exact{});
-    return are_closed(corners) ? corners : corners_of(faces, Welded{});
+    if (are_closed(corners)) return corners;
+    const Point& p = faces.front().corners.front();
+    const double coarseness = coarseness_at({p[0], p[1], p[2]});
+    return corners_of(faces, Welded(std::exp2(std::floor(std::log2(coarseness)))));
 }
 
 struct Piece {
@@ -224,9 +230,11 @@ std::vector<MediaBody> bodies_of(
 }  // namespace
 
 double MediaBody::volume() const {
+    const Point& p = triangles.front().front();
+    const Vec3d corner{p[0], p[1], p[2]};  // far from the origin a sum of products would cancel
     double sum = 0;
     for (const auto& [a, b, c] : triangles)
-        sum += determinant(from(a, {}), from(b, {}), from(c, {})) / 6;
+        sum += determinant(from(a, corner), from(b, corner), from(c, corner)) / 6;
     return sum;
 }
 

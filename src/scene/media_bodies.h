@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 
 #include <array>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,14 +20,17 @@ struct MediaBody {
     std::set<uint32_t> boundaries;  // materials of the triangles that let light in
     std::string name;               // of its primitive
     bool closed = false;            // every edge is run through as often one way as the other
-    Point low{2, 2, 2};             // of its bounding box; the scene is 1 wide
-    Point high{-2, -2, -2};
+    Point low{inf, inf, inf};       // of its bounding box
+    Point high{-inf, -inf, -inf};
 
     double volume() const;  // below 0: its faces look inwards
 
     // Around a point: how often the body is around it; no integer where its mesh is open
     // [Van Oosterom & Strackee 1983; Jacobson 2013].
     double winding(const Vec3d& point) const;
+
+  private:
+    static constexpr float inf = std::numeric_limits<float>::infinity();
 };
 
 // Every closed piece of a mesh's boundaries is a body: of one material, else of several. The others

@@ -161,7 +161,7 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
         if (rows_of(body, tables).size() > 1) patched.push_back(body.name);
         if (!body.closed)
             open.push_back(body.name);
-        else if (std::abs(body.volume()) <= 1e-12)  // what rounding leaves of none
+        else if (std::abs(body.volume()) <= 1e-12 * std::pow(coarseness_at(vertex_of(body)), 3))
             flat.push_back(body.name);
         else if (body.volume() < 0 && !is_hollow(body, bodies, tables))
             throw Error(

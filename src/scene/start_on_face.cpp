@@ -1,5 +1,6 @@
 #include "scene/start_on_face.h"
 
+#include "scene/normalise.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ bool cuts_film(const MediaBody::Triangle& triangle, const RenderParams& params) 
 }
 
 bool lies_on(const MediaBody::Triangle& triangle, const Vec3d& eye) {
-    constexpr double nearest = 0x1p-21;
+    const double nearest = 0x1p-21 * coarseness_at(eye);
     const std::array<Vec3d, 3> corners{point(triangle[0]), point(triangle[1]), point(triangle[2])};
     const Vec3d normal =
         normalized(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])));

@@ -38,6 +38,8 @@ std::string Features::defines() const {
     define("HAS_CONTACTS", contacts);
     define("HAS_LAMP_CONTACTS", lamp_contacts);
     define("LAMPS_ON_LAMPS", lamps_on_lamps);
+    define("HAS_FAR_GEOMETRY", far_geometry);
+    define("HAS_FAR_CAMERA", far_camera);
     define("ROUGH_DIELECTRICS", rough_dielectrics);
     define("PARTIAL_BOUNDARIES", partial_boundaries);
     define("MEDIA_SCATTER", media_scatter);
@@ -112,6 +114,7 @@ Features features_of(
     f.matched_media = std::ranges::any_of(
         media.media, [](const DeviceMedium& medium) { return medium.ior == 0; });
     f.rough_dielectrics = media.refract_roughly;
+    f.far_geometry = geometry.is_far();
     // Without a light that is somewhere there is no angle to draw distances from.
     const bool somewhere = std::ranges::any_of(lights.lights, [](const DeviceLight& light) {
         return light.kind == LIGHT_TRIANGLE || light.kind == LIGHT_POINT;

@@ -44,6 +44,8 @@ struct Features {
     bool contacts = false;        // something touches them or a lamp; the renderer's to find out,
     bool lamp_contacts = false;   // a lamp,
     bool lamps_on_lamps = false;  // and itself shines to the same side
+    bool far_geometry = false;    // triangles lie outside the unit cube
+    bool far_camera = false;      // rays start at the scene; the renderer's to find out
     bool rough_dielectrics = false;  // by microfacets
     // Boundaries that transmit in part and are opaque else.
     bool partial_boundaries = false;

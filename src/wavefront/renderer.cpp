@@ -6,6 +6,7 @@
 #include "scene/hidden_lights.h"
 #include "scene/host_memory.h"
 #include "scene/light_guide.h"
+#include "scene/placement.h"
 #include "wavefront/sample_plan.h"
 
 #include <algorithm>
@@ -64,11 +65,11 @@ void check_lights(
 
 RenderParams scene_params(
     const Scene& scene,
-    const NormalisedScene& geometry,
+    const PlacedScene& placed,
     const LightTables& tables,
     const RenderSettings& settings) {
     RenderParams params{};
-    set_camera(params, settings.camera, geometry, settings.width, settings.height);
+    set_camera(params, settings.camera, placed, settings.width, settings.height);
     params.seed = settings.seed;
     params.max_scatterings = settings.termination.kind == TerminationKind::depth
                                  ? settings.termination.depth
@@ -229,11 +230,16 @@ RenderResult render(
     const std::function<bool()>& stop) {
     RenderResult result;
     Stopwatch watch;
-    const NormalisedScene geometry = normalise(scene);
+    PlacedScene placed = place(scene, settings.camera, settings.width, settings.height);
+    const NormalisedScene& geometry = placed.geometry;
+    Bvh& bvh = placed.bvh;
+    result.times.bvh_build = bvh.build_seconds;
+    result.times.normalise = watch.lap() - bvh.build_seconds;
     LightTables tables = build_light_tables(
         scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
     const MediaTables media = build_media_tables(scene, geometry);
-    result.warnings = media.warnings;
+    result.warnings = placed.warnings;
+    result.warnings.insert(result.warnings.end(), media.warnings.begin(), media.warnings.end());
     check_lights(scene, geometry, tables, media, settings.method, result);
     check_splits(settings, media.scatter);
     const TextureTables textures =
@@ -251,15 +257,14 @@ RenderResult render(
     features.guide = guide.has_value();
     result.guided = features.guide;
     features.split_levels = branches ? settings.split_depth : 0;
-    result.times.normalise = watch.lap();
-    Bvh bvh = build_bvh(geometry.positions);
+    result.times.normalise += watch.lap();
     if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
     const LampContacts at_lamps = mark_lamp_contacts(scene, geometry, bvh, tables.triangle_lights);
     features.lamp_contacts = at_lamps.surfaces;
     features.lamps_on_lamps = at_lamps.lamps;
     features.contacts = at_lamps.surfaces || ((features.dielectrics || features.transmission) &&
                                               has_contacts(scene, geometry, bvh));
-    result.times.bvh_build = watch.lap();
+    result.times.bvh_build += watch.lap();
     // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
     // for memory together, and a small mesh is traced without its tree, in packets.
     const std::optional<SmallMesh> mesh =
@@ -270,7 +275,7 @@ RenderResult render(
     const SceneBuffers buffers(device, scene, geometry, bvh, mesh, tables, media, textures);
     result.times.upload = watch.lap();
 
-    RenderParams params = scene_params(scene, geometry, tables, settings);
+    RenderParams params = scene_params(scene, placed, tables, settings);
     if (guide) {
         params.guide_x = static_cast<float>(guide->centre[0]);
         params.guide_y = static_cast<float>(guide->centre[1]);
@@ -278,6 +283,17 @@ RenderResult render(
         params.guide_radius2 = static_cast<float>(guide->radius * guide->radius);
     }
     params.camera_media = media_at_camera(scene, media, params);
+    if (params.camera_media != 0 && placed.free_distance > 0) {
+        // what it absorbs begins at the eye
+        placed.free_distance = 0;
+        set_camera(params, settings.camera, placed, settings.width, settings.height);
+    }
+    features.far_camera = is_far_camera(params);
+    if (!tells_pixels_apart(params))
+        result.warnings.push_back(fmt::format(
+            "{}: single precision does not tell the pixels of camera \"{}\" apart; bring it closer "
+            "or widen its view",
+            scene.name, settings.camera.name));
     const cl::Program program = build_program(
         device, assemble_source(features.defines(), QueueManager::kernel_files(features)),
         &result.program);

@@ -73,7 +73,8 @@ namespace {
     FIELD(RenderParams, camera_media) FIELD(RenderParams, ray_start) FIELD(RenderParams, stops)                                  \
     FIELD(RenderParams, stop_directions) \
     FIELD(RenderParams, guide_x) FIELD(RenderParams, guide_y) FIELD(RenderParams, guide_z)        \
-    FIELD(RenderParams, guide_radius2)                                                            \
+    FIELD(RenderParams, guide_radius2) FIELD(RenderParams, forward_x)                             \
+    FIELD(RenderParams, forward_y) FIELD(RenderParams, forward_z)                                 \
     STRUCT(PlanRow)                                                                               \
     FIELD(PlanRow, first_sample) FIELD(PlanRow, samples) FIELD(PlanRow, batch_start)              \
     FIELD(PlanRow, closes_batch)                                                                  \
