@@ -71,7 +71,7 @@ enum MediumPlane {
     MEDIUM_STACK,      // (uint bits) media around the segment, 8 bits each: rows of the table of
                        // media + 1, the innermost lowest; 0: vacuum (media/medium_stack.cl)
     MEDIUM_T,          // where the segment begins [distance along the ray, normalised]; below 0
-                       // behind a dielectric, from which the ray's origin keeps RAY_OFFSET
+                       // behind a dielectric, from which the ray's origin keeps ray_offset
     MEDIUM_PRIMITIVE,  // (int bits) the boundary it begins at; NO_BOUNDARY at the ray's origin
     MEDIUM_PASSES,     // (uint bits) boundaries and walls passed since the ray's origin
     MEDIUM_BEFORE,    // (uint bits) MEDIUM_STACK before MEDIUM_PRIMITIVE and boundaries touching it
