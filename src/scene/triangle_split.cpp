@@ -69,6 +69,8 @@ void split_triangle(
     RTCBounds* right,
     void* positions) {
     const auto& floats = *static_cast<const std::vector<float>*>(positions);
+    const float lower = (&primitive->lower_x)[dimension];
+    const float upper = (&primitive->upper_x)[dimension];
     Box below;
     Box above;
     Vec3 a = corner_of(floats, primitive->primID, 2);
@@ -97,6 +99,11 @@ void split_triangle(
     above.low[dimension] = std::max(above.low[dimension], plane);
     below.clip(*primitive);
     above.clip(*primitive);
+    // Embree sorts parts by the rounded middle of their boxes, and asserts that both sides get
+    // some: a part thinner than that rounding would count on the other side.
+    const float least = 0x1p-20F * std::max({std::abs(plane), std::abs(lower), std::abs(upper)});
+    below.low[dimension] = std::min(below.low[dimension], plane - least);
+    above.high[dimension] = std::max(above.high[dimension], plane + least);
     *left = below.bounds();
     *right = above.bounds();
 }
