@@ -12,7 +12,7 @@ namespace {
 
 // Of the sphere about the lamps: 1 to 1.6 are within a tenth of each other on closelight and fog.
 constexpr double margin = 1.4;
-// Beyond, the cone is most of what a surface sees.
+// Beyond, the cone is most of what a surface sees. Of the scene's longest side.
 constexpr double largest_radius = 0.25;
 // Looked at to tell whether a surface is lit: spread over a lamp, they stand for all.
 constexpr std::size_t lights_looked_at = 64;
@@ -77,7 +77,8 @@ std::optional<LightGuide> guide_to_lights(
     }
     if (lamps.empty() || chance < 0.5) return std::nullopt;
     const LightGuide guide = sphere_about(lamps);
-    if (guide.radius > largest_radius) return std::nullopt;
+    const double side = extent_of(scene).metres / geometry.extent.metres;
+    if (guide.radius > largest_radius * side) return std::nullopt;
 
     const double extinction = extinction_around(scene, media, guide.centre);
     if (extinction > 0 && extinction * guide.radius < 1) return guide;

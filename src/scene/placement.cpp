@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t rays_a_side = 32;
 
 // Rays leave a surface 2^-20 units off, or 2^-19 of its distance from the origin. Up to this many
-// units in what is seen that is a 2^-14th of it, which no picture shows.
-constexpr double coarse = 64;
+// units in what is seen that is a 2^-12th of it, an eighth of a pixel of a picture of 512.
+constexpr double coarse = 256;
 constexpr double fine = 4;             // down to as many there is nothing to gain
 constexpr std::size_t least_rays = 4;  // that see something
 

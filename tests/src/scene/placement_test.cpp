@@ -96,7 +96,7 @@ TEST(Placement, OfTheWholeIsTheWhole) {
 
 TEST(Placement, WarnsOfWhatIsLost) {
     const Camera camera = perspective({2, 1, 2}, {0, 0, 0}, 0.6);
-    Scene scene = with_stray({3e9, 0, 0});
+    const Scene scene = with_stray({3e10, 0, 0});
     const PlacedScene result = placed(scene, camera);
     EXPECT_TRUE(result.geometry.is_far());
     ASSERT_EQ(result.warnings.size(), 1U);
