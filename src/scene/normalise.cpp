@@ -223,27 +223,13 @@ PunctualLight normalised_light(const NormalisedScene& space, PunctualLight light
 }
 
 // Why no triangle of the scene counts.
-std::string without_area(const Scene& scene, const Extent& extent) {
-    const bool has_area = std::ranges::any_of(scene.primitives, [](const Primitive& primitive) {
-        for (std::size_t t = 0; t + 2 < primitive.indices.size(); t += 3)
-            if (face_cross(
-                    {vec3_at(primitive.positions, primitive.indices[t]),
-                     vec3_at(primitive.positions, primitive.indices[t + 1]),
-                     vec3_at(primitive.positions, primitive.indices[t + 2])}) != Vec3d{0, 0, 0})
-                return true;
-        return false;
-    });
+std::string without_area(const Extent& extent) {
     const double distance = std::sqrt(dot(extent.centre, extent.centre));
     if (distance > 0x1p20 * extent.metres)
         return fmt::format(
             "every triangle is too small for its distance from the origin, {:.3g} m; move the "
             "scene there",
             distance);
-    if (has_area)
-        return fmt::format(
-            "every triangle is too small for the scene's extent of {:.3g} m; remove what lies far "
-            "away",
-            extent.metres);
     return "every triangle has zero area; there is nothing to render";
 }
 
@@ -289,7 +275,7 @@ NormalisedScene normalise(const Scene& scene, const Extent& extent) {
         out.ends.push_back(static_cast<uint32_t>(out.triangle_count()));
     }
     if (out.materials.empty() && out.lost == 0)
-        throw Error("{}: {}", scene.name, without_area(scene, out.extent));
+        throw Error("{}: {}", scene.name, without_area(out.extent));
     for (const PunctualLight& light : scene.lights)
         out.lights.push_back(normalised_light(out, light));
     return out;

@@ -30,9 +30,7 @@ TEST(NormaliseMessages, SayWhatATriangleIsTooSmallFor) {
         HasSubstr("too small for its distance from the origin, 1e+12 m"));
     std::vector<float> stray = triangle;
     stray.insert(stray.end(), {1e12F, 0, 0, 1e12F, 0, 0, 1e12F, 0, 0});
-    EXPECT_THAT(
-        error_with(stray, {0, 0, 0}),
-        HasSubstr("every triangle is too small for the scene's extent of 1e+12 m; remove what"));
+    EXPECT_EQ(error_with(stray, {0, 0, 0}), "") << "a camera may be close to it: place() asks it";
     EXPECT_THAT(
         error_with({0, 0, 0, 1, 0, 0, 2, 0, 0}, {0, 0, 0}),
         HasSubstr("every triangle has zero area; there is nothing to render"));
