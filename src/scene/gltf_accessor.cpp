@@ -130,13 +130,6 @@ Rows find_rows(
     return {bytes.data() + byte_offset, stride};
 }
 
-std::size_t checked_sparse_offset(
-    const GltfFile& file, std::int64_t byte_offset, std::string_view where) {
-    if (byte_offset < 0)
-        file.fail(where, "sparse byteOffset {} is negative; export again", byte_offset);
-    return static_cast<std::size_t>(byte_offset);
-}
-
 // Hands `store(row, bytes)` the rows that the sparse part of `accessor` replaces.
 template <typename Store>
 void for_each_sparse_row(
@@ -159,11 +152,11 @@ void for_each_sparse_row(
             indices.componentType);
     const auto replaced = static_cast<std::size_t>(sparse.count);
     const Rows targets = find_rows(
-        file, indices.bufferView, checked_sparse_offset(file, indices.byteOffset, where), replaced,
+        file, indices.bufferView, static_cast<std::size_t>(indices.byteOffset), replaced,
         component_size(indices.componentType), where);
     const Rows rows = find_rows(
-        file, values.bufferView, checked_sparse_offset(file, values.byteOffset, where), replaced,
-        row_size, where);
+        file, values.bufferView, static_cast<std::size_t>(values.byteOffset), replaced, row_size,
+        where);
     std::uint32_t next = 0;
     for (std::size_t i = 0; i < replaced; ++i) {
         const std::uint32_t target = load_index(targets[i], indices.componentType);

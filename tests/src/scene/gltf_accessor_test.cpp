@@ -218,7 +218,7 @@ constexpr Broken broken_accessors[] = {
      "POSITION: 2 rows from byte 4 end after bufferView 2 of 24 bytes"},
     {"sparse_offset_negative",
      [](Json& root) { root["accessors"][0]["sparse"]["indices"]["byteOffset"] = -1; },
-     "sparse byteOffset -1 is negative"},
+     "sparse.indices.byteOffset is -1, not an integer from 0 on"},
     {"sparse_component_type",
      [](Json& root) { root["accessors"][0]["sparse"]["indices"]["componentType"] = 5126; },
      "sparse indices have component type 5126"},
