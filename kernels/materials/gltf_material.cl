@@ -108,10 +108,10 @@ layered_reflectance(const Surface s, const Vec3 wo, const Vec3 wi, const float c
     return r;
 }
 
-// The albedos of the lobes, seen from wo; all but the specular one are factors of the base.
-INLINE Reflectance lobe_albedos(const Surface s, const Vec3 wo) {
-    if (!LAYERS_CONSERVE) return gltf_reflectance(s, wo.z);
-    const LayerAlbedo a = layer_albedo(layer_rows(s.alpha), wo.z);
+// The albedos of the lobes, seen under `cosine`; all but the specular one are factors of the base.
+INLINE Reflectance lobe_albedos(const Surface s, const float cosine) {
+    if (!LAYERS_CONSERVE) return gltf_reflectance(s, cosine);
+    const LayerAlbedo a = layer_albedo(layer_rows(s.alpha), cosine);
     const float passed = layer_passes(s, a);
     Reflectance r;
     r.specular = layer_specular(s, 1.0f - a.missing - a.grazing, a.grazing);
@@ -136,8 +136,7 @@ INLINE int gltf_is_mirror(const Surface s) {
 // (stages/pass_walls.cl, stages/connect_through_media.cl).
 INLINE Vec3 gltf_straight_through(const Surface s, const float cosine) {
     if (!HAS_SMOOTH_WALLS) return vec3(0.0f, 0.0f, 0.0f);
-    const Vec3 wo = vec3(0.0f, 0.0f, cosine);  // lobe_albedos reads no more of it
-    return scale3(s.base, gltf_is_mirror(s) ? lobe_albedos(s, wo).through : 0.0f);
+    return scale3(s.base, gltf_is_mirror(s) ? lobe_albedos(s, cosine).through : 0.0f);
 }
 
 // Probabilities that sampling takes the specular lobe, and those to the other side: their shares of
@@ -154,7 +153,7 @@ INLINE LobeChances gltf_lobe_pmf(const Surface s, const Vec3 wo) {
     c.through = 0.0f;
     c.straight = 0.0f;
     if (!HAS_SPECULAR) return c;
-    const Reflectance r = lobe_albedos(s, wo);
+    const Reflectance r = lobe_albedos(s, wo.z);
     const float specular = max_component3(r.specular);
     const float base = max_component3(s.base);
     const float straight = gltf_is_mirror(s) ? 0.0f : base * r.through;
@@ -242,7 +241,7 @@ INLINE BsdfSample gltf_sample(const Surface s, const Vec3 wo, const Sample2 u, c
     const int delta = facet && mirror;
     const float pdf_w = gltf_pdf_w(s, wo, r.wi, through);
     const Vec3 finite = scale3(gltf_eval(s, wo, r.wi, through), pdf_w > 0.0f ? 1.0f / pdf_w : 0.0f);
-    const Vec3 mirrored = lobe_albedos(s, wo).specular;
+    const Vec3 mirrored = lobe_albedos(s, wo.z).specular;
     const Vec3 certain = scale3(mirrored, pmf.specular > 0.0f ? 1.0f / pmf.specular : 0.0f);
     r.weight = select3(delta, certain, finite);
     r.pdf_w = delta ? PDF_CERTAIN : pdf_w;

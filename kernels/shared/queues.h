@@ -12,10 +12,10 @@
 #define FATE_ENDED 2u      // its path is over
 #define FATE_CONNECTED 4u  // it traced a connection to a light
 
-#define FATE_CUT 16u  // it was ended for its length, MAX_SCATTERINGS
-
 #define FATE_RESUMED \
     8u  // it goes on at a branch vertex: no ray to trace (written by resume_branch)
+
+#define FATE_CUT 16u  // it was ended for its length, MAX_SCATTERINGS
 
 #define DEPTH_BINS 16                // path lengths counted apart: 0 .. 14 scatterings, and longer
 #define STATISTICS (DEPTH_BINS + 1)  // and connections traced

@@ -42,7 +42,7 @@ kernel void pass_walls(
     const Vec3 straight = gltf_straight_through(surface, cosine);
     const float through = max_component3(straight);
     if (through <= 0.0f) return;
-    const Reflectance scattered = lobe_albedos(surface, vec3(0.0f, 0.0f, cosine));
+    const Reflectance scattered = lobe_albedos(surface, cosine);
     const float base = max_component3(surface.base);
     const float pmf = through / (through + max_component3(scattered.specular) +
                                  base * (scattered.diffuse + scattered.spread));
