@@ -1,5 +1,6 @@
 #include "scene/contacts.h"
 
+#include "scene/bvh_walk.h"
 #include "scene/transform.h"
 #include "shared/scene.h"
 
@@ -24,7 +25,7 @@ struct Triangle {
 
 Triangle triangle_at(const NormalisedScene& geometry, std::size_t index) {
     Triangle t;
-    for (std::size_t k = 0; k < 3; ++k) t.corners[k] = vec3_at(geometry.positions, 3 * index + k);
+    t.corners = geometry.corners_of(index);
     t.normal =
         normalized(cross(minus(t.corners[1], t.corners[0]), minus(t.corners[2], t.corners[0])));
     t.touching = touching_near * std::max(
@@ -71,25 +72,14 @@ bool touches(const Triangle& a, const Triangle& b) {
 // Calls `visit` with every triangle whose leaf's box meets that of `t`, until it says true.
 template <typename Visit>
 bool any_near(const Bvh& bvh, const Triangle& t, const Visit& visit) {
-    std::vector<uint32_t> waiting{0};
-    while (!waiting.empty()) {
-        const uint32_t current = waiting.back();
-        waiting.pop_back();
-        if ((current & BVH_LEAF) != 0) {
-            for (const uint32_t entry : bvh.blocks[current & ~BVH_LEAF].primitives)
-                if (entry != BVH_EMPTY && visit(entry & ~BVH_HOLES)) return true;
-            continue;
-        }
-        const BvhNode& node = bvh.nodes[current];
-        for (std::size_t k = 0; k < 8; ++k) {
-            bool meets = node.children[k] != BVH_EMPTY;
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                meets = meets && double{node.bounds[axis][0][k]} <= t.high[axis] &&
-                        double{node.bounds[axis][1][k]} >= t.low[axis];
-            if (meets) waiting.push_back(node.children[k]);
-        }
-    }
-    return false;
+    const auto meets = [&](const BvhNode& node, std::size_t child) {
+        bool both = true;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            both = both && double{node.bounds[axis][0][child]} <= t.high[axis] &&
+                   double{node.bounds[axis][1][child]} >= t.low[axis];
+        return both;
+    };
+    return walk(bvh, meets, visit);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -21,11 +22,11 @@ struct Ball {
 // Around a triangle.
 Ball ball_around(const NormalisedScene& geometry, std::size_t triangle) {
     Ball ball{{0, 0, 0}, 0};
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t k = 0; k < 3; ++k)
-            ball.centre[k] += vec3_at(geometry.positions, 3 * triangle + c)[k] / 3;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const Vec3d away = minus(vec3_at(geometry.positions, 3 * triangle + c), ball.centre);
+    const std::array<Vec3d, 3> corners = geometry.corners_of(triangle);
+    for (const Vec3d& corner : corners)
+        for (std::size_t k = 0; k < 3; ++k) ball.centre[k] += corner[k] / 3;
+    for (const Vec3d& corner : corners) {
+        const Vec3d away = minus(corner, ball.centre);
         ball.radius = std::max(ball.radius, std::sqrt(dot(away, away)));
     }
     return ball;

@@ -19,12 +19,6 @@ constexpr std::size_t lights_looked_at = 64;
 
 using Triangle = std::array<Vec3d, 3>;
 
-Triangle triangle_of(const NormalisedScene& geometry, std::size_t triangle) {
-    return {
-        vec3_at(geometry.positions, 3 * triangle), vec3_at(geometry.positions, 3 * triangle + 1),
-        vec3_at(geometry.positions, 3 * triangle + 2)};
-}
-
 Vec3d unit_normal(const Triangle& t) {
     return normalized(cross(minus(t[1], t[0]), minus(t[2], t[0])));
 }
@@ -71,14 +65,13 @@ std::optional<LightGuide> guide_to_lights(
     double chance = 0;
     for (const DeviceLight& light : lights.lights) {
         if (light.kind != LIGHT_TRIANGLE) continue;
-        lamps.push_back(triangle_of(geometry, light.primitive));
+        lamps.push_back(geometry.corners_of(light.primitive));
         both_sides.push_back(light.double_sided != 0);
         chance += light.pmf;
     }
     if (lamps.empty() || chance < 0.5) return std::nullopt;
     const LightGuide guide = sphere_about(lamps);
-    const double side = extent_of(scene).metres / geometry.extent.metres;
-    if (guide.radius > largest_radius * side) return std::nullopt;
+    if (guide.radius > largest_radius * geometry.side) return std::nullopt;
 
     const double extinction = extinction_around(scene, media, guide.centre);
     if (extinction > 0 && extinction * guide.radius < 1) return guide;
@@ -87,7 +80,7 @@ std::optional<LightGuide> guide_to_lights(
     for (std::size_t t = 0; t < geometry.triangle_count(); ++t) {
         const bool opaque = scene.materials[geometry.materials[t]].boundary == Boundary::opaque;
         if (!opaque || lights.triangle_lights[t] != NO_LIGHT) continue;
-        const Triangle triangle = triangle_of(geometry, t);
+        const Triangle triangle = geometry.corners_of(t);
         if (!touches(triangle, guide)) continue;
         for (std::size_t i = 0; i < lamps.size(); i += step) {
             const Vec3d normal = unit_normal(lamps[i]);

@@ -241,6 +241,12 @@ Vec3d NormalisedScene::to_normalised(const Vec3d& world) const {
     return p;
 }
 
+std::array<Vec3d, 3> NormalisedScene::corners_of(std::size_t triangle) const {
+    return {
+        vec3_at(positions, 3 * triangle), vec3_at(positions, 3 * triangle + 1),
+        vec3_at(positions, 3 * triangle + 2)};
+}
+
 double coarseness_at(const Vec3d& p) {
     return std::max({1.0, 2 * std::abs(p[0]), 2 * std::abs(p[1]), 2 * std::abs(p[2])});
 }

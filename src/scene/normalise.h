@@ -2,6 +2,7 @@
 
 #include "scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct NormalisedScene {
         lights;  // positions and ranges normalised; point and spot intensity / metres^2
     std::size_t dropped = 0;  // triangles of zero area, left out
     std::size_t lost = 0;     // of them: too small for floats here, but no lines or points
+    double side = 1;          // the longest of the bounding box of all instances [normalised]
     double reach = 0.8660254037844386;  // no corner is farther from the origin
 
     // Whether triangles lie outside the unit cube.
@@ -44,6 +46,7 @@ struct NormalisedScene {
 
     std::size_t triangle_count() const { return materials.size(); }
     Vec3d to_normalised(const Vec3d& world) const;
+    std::array<Vec3d, 3> corners_of(std::size_t triangle) const;
 };
 
 // By how much rounding at p exceeds that in the unit cube, and so ray_offset of the kernels

@@ -47,12 +47,6 @@ double length(const Vec3d& v) {
     return std::sqrt(dot(v, v));
 }
 
-std::array<Vec3d, 3> triangle_at(const NormalisedScene& geometry, std::size_t triangle) {
-    return {
-        vec3_at(geometry.positions, 3 * triangle), vec3_at(geometry.positions, 3 * triangle + 1),
-        vec3_at(geometry.positions, 3 * triangle + 2)};
-}
-
 // Distance to the triangle, or infinity [Moeller & Trumbore 1997].
 double distance_to(const Ray& ray, const std::array<Vec3d, 3>& corners) {
     constexpr double none = std::numeric_limits<double>::infinity();
@@ -100,8 +94,7 @@ std::pair<double, std::size_t> closest(const PlacedScene& placed, const Ray& ray
         if ((current & BVH_LEAF) != 0) {
             for (const uint32_t entry : placed.bvh.blocks[current & ~BVH_LEAF].primitives) {
                 if (entry == BVH_EMPTY) continue;
-                best =
-                    std::min(best, {distance_to(ray, triangle_at(placed.geometry, entry)), entry});
+                best = std::min(best, {distance_to(ray, placed.geometry.corners_of(entry)), entry});
             }
             continue;
         }
@@ -132,7 +125,7 @@ std::vector<Seen> seen_by(const View& view, const PlacedScene& placed) {
         const auto [t, triangle] = closest(placed, ray);
         if (!std::isfinite(t)) continue;
         const double height = 2 * view.half_height * (view.orthographic ? 1 : t);
-        const std::array<Vec3d, 3> p = triangle_at(placed.geometry, triangle);
+        const std::array<Vec3d, 3> p = placed.geometry.corners_of(triangle);
         const double size = std::max(
             {height, length(minus(p[1], p[0])), length(minus(p[2], p[1])),
              length(minus(p[0], p[2]))});
@@ -204,6 +197,7 @@ PlacedScene place(const Scene& scene, const Camera& camera, uint32_t width, uint
             scene.name, whole.metres, subject->metres * 0x1p-19));
         break;
     }
+    placed.geometry.side = whole.metres / placed.geometry.extent.metres;
     if (placed.geometry.materials.empty())
         throw Error(
             "{}: its triangles are too small beside its {:.3g} m for single precision; take away "

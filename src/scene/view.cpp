@@ -1,5 +1,6 @@
 #include "scene/view.h"
 
+#include "scene/bvh_walk.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -79,8 +80,8 @@ double nearest_of_box(const View& view, const BvhNode& node, std::size_t child) 
 double nearest_of_triangle(
     const View& view, const NormalisedScene& geometry, std::size_t triangle) {
     Polygon polygon;
-    for (std::size_t k = 0; k < 3; ++k)
-        polygon.push_back(seen_from(view, vec3_at(geometry.positions, 3 * triangle + k)));
+    for (const Vec3d& corner : geometry.corners_of(triangle))
+        polygon.push_back(seen_from(view, corner));
     for (std::size_t side = 0; side < sides; ++side) polygon = clipped(view, side, polygon);
     return nearest_of(polygon);
 }
@@ -104,21 +105,13 @@ View view_of(
 double free_distance(const View& view, const NormalisedScene& geometry, const Bvh& bvh) {
     constexpr double rounding = 1e-4;  // of far corners
     double nearest = std::numeric_limits<double>::infinity();
-    std::vector<uint32_t> waiting{0};
-    while (!waiting.empty()) {
-        const uint32_t current = waiting.back();
-        waiting.pop_back();
-        if ((current & BVH_LEAF) != 0) {
-            for (const uint32_t entry : bvh.blocks[current & ~BVH_LEAF].primitives)
-                if (entry != BVH_EMPTY)
-                    nearest = std::min(nearest, nearest_of_triangle(view, geometry, entry));
-            continue;
-        }
-        const BvhNode& node = bvh.nodes[current];
-        for (std::size_t k = 0; k < 8; ++k)
-            if (node.children[k] != BVH_EMPTY && nearest_of_box(view, node, k) < nearest)
-                waiting.push_back(node.children[k]);
-    }
+    const auto may_be_nearer = [&](const BvhNode& node, std::size_t child) {
+        return nearest_of_box(view, node, child) < nearest;
+    };
+    walk(bvh, may_be_nearer, [&](std::size_t triangle) {
+        nearest = std::min(nearest, nearest_of_triangle(view, geometry, triangle));
+        return false;
+    });
     return (1 - rounding) * nearest;
 }
 
