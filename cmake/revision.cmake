@@ -9,7 +9,7 @@ endif()
 if(NOT revision)
   set(revision "no revision")  # an archive without .git
 endif()
-set(text "#include \"measure/revision.h\"\n\nconst char* const wavepath::revision = \"${revision}\";\n")
+set(text "#include \"commands/revision.h\"\n\nconst char* const wavepath::revision = \"${revision}\";\n")
 if(EXISTS ${OUTPUT})
   file(READ ${OUTPUT} before)
 endif()

@@ -2,12 +2,12 @@
 
 #include "commands/interrupt.h"
 #include "commands/progress.h"
+#include "commands/report.h"
 #include "error.h"
-#include "film/atomic_file.h"
 #include "film/auto_exposure.h"
-#include "film/exr_writer.h"
-#include "film/png_writer.h"
-#include "measure/report.h"
+#include "image/atomic_file.h"
+#include "image/exr_writer.h"
+#include "image/png_writer.h"
 
 #include <spdlog/spdlog.h>
 

@@ -1,16 +1,13 @@
 #include "commands/profile.h"
 
-#include "commands/interrupt.h"
 #include "commands/outputs.h"
 #include "commands/run_job.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <system_error>
 
 namespace wavepath {
 
@@ -84,23 +81,6 @@ void print_profile(const Device& device, const RenderJob& job, const RenderResul
         static_cast<double>(result.film_bytes) / 1048576.0);
 }
 
-void run(const RenderOptions& options, const Outputs& outputs) {
-    prepare_signals();
-    if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
-    check_outputs(outputs);
-    check_apart(outputs, {options.scene, options.environment});
-    const Device device = open_device(options.device);
-    const RenderJob job = prepare_job(options);
-    check_apart(outputs, job.scene.files);
-    RenderResult result = run_job(device, job, outputs.quiet);
-    try {
-        print_profile(device, job, result);
-    } catch (const std::system_error&) {
-        // The pictures come first; that standard output failed is main's to say.
-    }
-    write_outputs(device, job, result, outputs);
-}
-
 }  // namespace
 
 void add_profile_command(CLI::App& app) {
@@ -109,7 +89,7 @@ void add_profile_command(CLI::App& app) {
     const auto outputs = std::make_shared<Outputs>();
     add_render_options(*command, *options);
     add_output_options(*command, *outputs);
-    command->callback([options, outputs] { run(*options, *outputs); });
+    command->callback([options, outputs] { run_job(*options, *outputs, print_profile); });
 }
 
 }  // namespace wavepath

@@ -6,9 +6,15 @@
 
 #include <spdlog/spdlog.h>
 
+#include <system_error>
+
 namespace wavepath {
 
-RenderResult run_job(const Device& device, const RenderJob& job, bool quiet) {
+namespace {
+
+// What is ignored and what went wrong is said. Throws Interrupted if a signal to stop comes before
+// every pixel has a sample; later it sets the result's `interrupted`.
+RenderResult render_watched(const Device& device, const RenderJob& job, bool quiet) {
     for (const std::string& line : job.scene.ignored) spdlog::warn("{}: {}", job.scene.name, line);
     spdlog::info(
         "{}: {} triangles, {}x{}, {} on {}; its kernels take some seconds where they are new",
@@ -44,6 +50,25 @@ RenderResult run_job(const Device& device, const RenderJob& job, bool quiet) {
                                         : fmt::format("{} paths were", result.cut_paths.count),
             MAX_SCATTERINGS, result.cut_paths.x, result.cut_paths.y, result.cut_paths.sample);
     return result;
+}
+
+}  // namespace
+
+void run_job(const RenderOptions& options, const Outputs& outputs, const PrintResult& print) {
+    prepare_signals();
+    if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
+    check_outputs(outputs);
+    check_apart(outputs, {options.scene, options.environment});
+    const Device device = open_device(options.device);
+    const RenderJob job = prepare_job(options);
+    check_apart(outputs, job.scene.files);
+    RenderResult result = render_watched(device, job, outputs.quiet);
+    try {
+        if (print) print(device, job, result);
+    } catch (const std::system_error&) {
+        // The pictures come first; that standard output failed is main's to say.
+    }
+    write_outputs(device, job, result, outputs);
 }
 
 }  // namespace wavepath

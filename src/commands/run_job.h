@@ -2,12 +2,19 @@
 // heeded.
 #pragma once
 
-#include "commands/render_options.h"
+#include "commands/outputs.h"
+
+#include <functional>
 
 namespace wavepath {
 
-// Throws Interrupted if a signal to stop comes before every pixel has a sample; later it sets the
-// result's `interrupted`.
-RenderResult run_job(const Device& device, const RenderJob& job, bool quiet);
+// Prints what a render took to standard output.
+using PrintResult = std::function<void(const Device&, const RenderJob&, const RenderResult&)>;
+
+// From options to files; `print`, if any, comes between render and files. Throws Error, and what
+// write_outputs throws; Interrupted also where a signal to stop comes before every pixel has a
+// sample, and nothing is written.
+void run_job(
+    const RenderOptions& options, const Outputs& outputs, const PrintResult& print = nullptr);
 
 }  // namespace wavepath

@@ -195,8 +195,7 @@ DeviceInfo describe_empty_platform(const cl::Platform& platform, uint32_t platfo
     if (is_pocl(info))
         info.unusable +=
             " (PoCL has none where it cannot write its cache: name a folder by POCL_CACHE_DIR; "
-            "where "
-            "POCL_DEVICES names none; and where memory or processes run out: see ulimit)";
+            "where POCL_DEVICES names none; and where memory or processes run out: see ulimit)";
     return info;
 }
 

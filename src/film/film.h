@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/device_array.h"
-#include "film/image.h"
+#include "image/image.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 // A mean that a few samples make, whatever brought them.
 #pragma once
 
-#include "film/image.h"
+#include "image/image.h"
 
 #include <cstdint>
 #include <optional>

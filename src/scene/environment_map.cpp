@@ -1,7 +1,7 @@
 #include "scene/environment_map.h"
 
 #include "error.h"
-#include "film/exr_writer.h"
+#include "image/exr_writer.h"
 
 #include <OpenEXR/ImfTestFile.h>
 

@@ -363,8 +363,7 @@ RenderResult render(
     else if (result.film.nonfinite.samples > 0)
         result.warnings.push_back(fmt::format(
             "{}: samples are not finite, and why is not known; dim lights whose radiance may "
-            "exceed "
-            "32 bits, else report the scene",
+            "exceed 32 bits, else report the scene",
             scene.name));
     else if (result.batches > 1 && !std::isfinite(result.film.relative_error))
         result.warnings.emplace_back(

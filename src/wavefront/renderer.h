@@ -1,10 +1,10 @@
 // From a scene and settings to a finished picture.
 #pragma once
 
+#include "device/profile.h"
 #include "device/program.h"
 #include "film/film.h"
 #include "film/outlier.h"
-#include "measure/profile.h"
 #include "scene/scene.h"
 #include "wavefront/method.h"
 #include "wavefront/queue_manager.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "device/device_array.h"
+#include "device/profile.h"
 #include "device/scene_buffers.h"
-#include "measure/profile.h"
 
 #include <string>
 

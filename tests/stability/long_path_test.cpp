@@ -6,7 +6,7 @@
 #include "support/media.h"
 #include "support/rendering.h"
 
-#include "film/exr_writer.h"
+#include "image/exr_writer.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // What files from Blender need: lumens, and an exposure that finds itself.
-#include "film/exr_writer.h"
+#include "image/exr_writer.h"
 #include "support/command.h"
 #include "support/gltf_builder.h"
 #include "support/sample_files.h"

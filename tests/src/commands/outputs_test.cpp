@@ -2,7 +2,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/progress.h"
-#include "film/exr_writer.h"
+#include "image/exr_writer.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // The program as a user meets it: exit codes, one line for what is wrong, nothing half-written.
 #include "build_paths.h"
-#include "film/exr_writer.h"
+#include "image/exr_writer.h"
 #include "support/command.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // No signal and no closed stream loses a picture.
-#include "film/exr_writer.h"
+#include "image/exr_writer.h"
 #include "support/command.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "scene/environment_map.h"
 
-#include "film/exr_writer.h"
+#include "image/exr_writer.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "film/image.h"
+#include "image/image.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "film/atomic_file.h"
+#include "image/atomic_file.h"
 
 #include "support/temporary_folder.h"
 

@@ -1,7 +1,7 @@
-#include "film/png_writer.h"
+#include "image/png_writer.h"
 
 #include "error.h"
-#include "film/atomic_file.h"
+#include "image/atomic_file.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
-#include "film/exr_writer.h"
+#include "image/exr_writer.h"
 
 #include "error.h"
-#include "film/atomic_file.h"
+#include "image/atomic_file.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

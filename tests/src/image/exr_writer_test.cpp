@@ -1,4 +1,4 @@
-#include "film/exr_writer.h"
+#include "image/exr_writer.h"
 
 #include "support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "film/png_writer.h"
+#include "image/png_writer.h"
 
 #include "support/temporary_folder.h"
 

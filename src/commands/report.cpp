@@ -1,6 +1,6 @@
-#include "measure/report.h"
+#include "commands/report.h"
 
-#include "measure/revision.h"
+#include "commands/revision.h"
 
 #include <sys/resource.h>
 

@@ -1,4 +1,4 @@
-#include "measure/report.h"
+#include "commands/report.h"
 #include "build_paths.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "measure/profile.h"
+#include "device/profile.h"
 
 #include <algorithm>
 
