@@ -44,9 +44,8 @@ std::filesystem::path pocl_cache_folder() {
 std::string pocl_cache_advice() {
     return fmt::format(
         "its kernel cache {} may be damaged or not writable (full disk, ulimit -f): delete it, "
-        "name "
-        "a folder elsewhere by POCL_CACHE_DIR, or go without by POCL_KERNEL_CACHE=0; or memory or "
-        "processes run out (ulimit -v, -u)",
+        "name a folder elsewhere by POCL_CACHE_DIR, or go without by POCL_KERNEL_CACHE=0; or "
+        "memory or processes run out (ulimit -v, -u)",
         pocl_cache_folder().string());
 }
 
@@ -54,8 +53,7 @@ DriverFailureGuard::DriverFailureGuard() {
     static std::string& words = *new std::string;
     words = fmt::format(
         "error: the OpenCL driver failed and ended the program; if it is PoCL, {}; else try "
-        "another "
-        "--device\n",
+        "another --device\n",
         pocl_cache_advice());
     static const int registered = std::atexit(say_last_words);  // LLVM exits where a disk is full
     static_cast<void>(registered);

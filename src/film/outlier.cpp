@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace wavepath {
 
@@ -12,12 +14,18 @@ Outlier largest_outlier(const Image& image) {
     Outlier largest;
     double sum = 0;
     double most = 0;
+    std::array<std::pair<const float*, const float*>, 3> channels;  // and their variances
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::string name(1, "RGB"[c]);
+        channels[c] = {
+            image.channels.at(name).data(), image.channels.at("variance." + name).data()};
+    }
     for (std::size_t i = 0; i < std::size_t{image.width} * image.height; ++i) {
         double mean = 0;
         double error = 0;
-        for (const char* channel : {"R", "G", "B"}) {
-            mean += image.channels.at(channel)[i];
-            error += std::sqrt(image.channels.at(std::string("variance.") + channel)[i]);
+        for (const auto& [radiance, variance] : channels) {
+            mean += radiance[i];
+            error += std::sqrt(variance[i]);
         }
         if (!std::isfinite(mean)) continue;
         if (!std::isfinite(error)) error = mean;  // the square of a sample is beyond floats
@@ -39,8 +47,7 @@ std::optional<std::string> outlier_warning(
         return std::nullopt;
     return fmt::format(
         "a few samples of pixel ({}, {}) make {:.0f} % of the picture's mean, which is not "
-        "settled; "
-        "{}",
+        "settled; {}",
         outlier.x, outlier.y, 100 * outlier.share,
         gains_energy ? "by --layering specification dielectrics gain energy: use conserving"
                      : "take more, or find out what light they bring");
