@@ -15,7 +15,7 @@ float dielectric_f0(const Material& material, std::size_t channel) {
     return material.has(TEXTURE_SPECULAR_COLOR) ? f0 : std::min(f0, 1.0F);
 }
 
-cl_uint device_boundary(const Material& material) {
+uint32_t device_boundary(const Material& material) {
     switch (material.boundary) {
         case Boundary::opaque:
             return BOUNDARY_OPAQUE;
@@ -74,7 +74,7 @@ bool may_pass_straight(const Material& material) {
     const bool is_smooth = material.roughness * material.roughness < mirror_alpha ||
                            material.has(TEXTURE_METALLIC_ROUGHNESS);
     return material.boundary == Boundary::opaque && material.transmission > 0 &&
-           (material.metallic < 1 || material.has(TEXTURE_METALLIC_ROUGHNESS)) && is_smooth;
+           !material.is_metal() && is_smooth;
 }
 
 bool has_lobes(const Material& material) {
@@ -85,9 +85,8 @@ bool has_lobes(const Material& material) {
 }
 
 bool has_layer(const Material& material) {
-    const bool metal = material.metallic == 1 && !material.has(TEXTURE_METALLIC_ROUGHNESS);
     const bool reflects = material.boundary == Boundary::opaque || material.transmits_in_part();
-    return reflects && !metal && (material.specular > 0 || material.transmission > 0);
+    return reflects && !material.is_metal() && (material.specular > 0 || material.transmission > 0);
 }
 
 }  // namespace wavepath

@@ -40,11 +40,6 @@ bool has_medium(const tinygltf::Value& extras) {
     return extras.IsObject() && extras.Has(extras_key);
 }
 
-// Nothing enters it anywhere.
-bool is_metal(const Material& material) {
-    return material.metallic == 1 && !material.has(TEXTURE_METALLIC_ROUGHNESS);
-}
-
 class MediumReader {
   public:
     MediumReader(const GltfFile& file, int index)
@@ -110,7 +105,7 @@ class MediumReader {
         if (!(transmission() > 0))
             return "KHR_materials_transmission with transmissionFactor above 0";
         if (!(thickness() > 0)) return "KHR_materials_volume with thicknessFactor above 0";
-        if (is_metal(material)) return "metallicFactor below 1, or a metallicRoughnessTexture";
+        if (material.is_metal()) return "metallicFactor below 1, or a metallicRoughnessTexture";
         if (material.ior < 1) return "an ior of 1 or more";
         return material.unlit ? "no KHR_materials_unlit" : "";
     }
@@ -256,7 +251,7 @@ void read_medium(const GltfFile& file, int index, Material& material, Ignored& i
     if (is_volume && material.unlit)
         ignored.add("volumes of unlit materials", "rendered without them");
     if (!is_volume || material.unlit) return;
-    if (is_metal(material))
+    if (material.is_metal())
         material.transmission = 0;
     else if (material.ior < 1)
         ignored.add("volumes that refract with ior 0", "rendered as thin walls");

@@ -86,6 +86,8 @@ struct Material {
     const Texture& texture(TextureUse use) const { return textures[use]; }
     bool has(TextureUse use) const { return textures[use].image.has_value(); }
     bool emits() const { return emission[0] > 0 || emission[1] > 0 || emission[2] > 0; }
+    // Whether nothing enters it anywhere.
+    bool is_metal() const { return metallic == 1 && !has(TEXTURE_METALLIC_ROUGHNESS); }
     // Whether it is a boundary at some points, or for some of the light, and opaque else.
     bool transmits_in_part() const {
         return boundary != Boundary::opaque &&
