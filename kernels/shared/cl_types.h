@@ -5,10 +5,10 @@
 #define WAVEPATH_CL_TYPES_H
 
 #ifdef __cplusplus
-#include "device/opencl.h"
-typedef cl_float shared_float;
-typedef cl_int shared_int;
-typedef cl_uint shared_uint;
+#include <cstdint>
+typedef float shared_float;
+typedef std::int32_t shared_int;
+typedef std::uint32_t shared_uint;
 #define SHARED_SIZE(type, bytes) static_assert(sizeof(type) == (bytes))
 #else
 typedef float shared_float;

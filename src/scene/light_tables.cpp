@@ -210,7 +210,7 @@ LightTables build_light_tables(
         if (share == 0) continue;
         DeviceLight light{};
         light.kind = LIGHT_TRIANGLE;
-        light.primitive = static_cast<cl_uint>(t);
+        light.primitive = static_cast<uint32_t>(t);
         light.double_sided = material.double_sided ? 1 : 0;
         light.intensity_r = material.emission[0];
         light.intensity_g = material.emission[1];

@@ -11,8 +11,8 @@ std::optional<SmallMesh> small_mesh(const std::vector<float>& positions) {
     const std::size_t triangles = positions.size() / 9;
     if (triangles > SMALL_MESH_TRIANGLES) return std::nullopt;
     SmallMesh mesh{};
-    mesh.triangle_count = static_cast<cl_uint>(triangles);
-    std::map<std::array<uint32_t, 3>, cl_uint> rows;
+    mesh.triangle_count = static_cast<uint32_t>(triangles);
+    std::map<std::array<uint32_t, 3>, uint32_t> rows;
     for (std::size_t i = 0; i < 3 * triangles; ++i) {
         std::array<uint32_t, 3> corner{};
         for (std::size_t axis = 0; axis < 3; ++axis)

@@ -15,14 +15,14 @@ double linear_of_srgb(double c) {
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-void append_curve(std::vector<cl_uint>& words, uint32_t codes) {
+void append_curve(std::vector<uint32_t>& words, uint32_t codes) {
     for (uint32_t code = 0; code < codes; ++code)
-        words.push_back(std::bit_cast<cl_uint>(
+        words.push_back(std::bit_cast<uint32_t>(
             static_cast<float>(linear_of_srgb(double{1} * code / (codes - 1)))));
 }
 
-cl_uint wrap_bits(const Texture& texture) {
-    cl_uint bits = 0;
+uint32_t wrap_bits(const Texture& texture) {
+    uint32_t bits = 0;
     if (texture.wrap_s == Wrap::clamp) bits |= TEXTURE_CLAMP_S;
     if (texture.wrap_s == Wrap::mirror) bits |= TEXTURE_MIRROR_S;
     if (texture.wrap_t == Wrap::clamp) bits |= TEXTURE_CLAMP_T;
@@ -118,7 +118,7 @@ TextureTables build_texture_tables(
     }
     if (tables.words > 0)
         tables.page_words =
-            std::min<uint64_t>(page_bytes / sizeof(cl_uint), std::numeric_limits<uint32_t>::max());
+            std::min<uint64_t>(page_bytes / sizeof(uint32_t), std::numeric_limits<uint32_t>::max());
     if (tables.pages() > TEXTURE_MOST_PAGES || tables.words > std::numeric_limits<uint32_t>::max())
         throw Error(
             "{}: textures take {} MiB, the device holds {} MiB; shrink them, or use another "

@@ -9,7 +9,7 @@ namespace wavepath {
 // Words are counted through all pages.
 struct TextureTables {
     std::vector<DeviceTexture> rows;    // TEXTURE_USES a material; empty: no textures, no holes
-    std::vector<cl_uint> curves;        // SRGB_8_TABLE and SRGB_16_TABLE, from word 0 on
+    std::vector<uint32_t> curves;       // SRGB_8_TABLE and SRGB_16_TABLE, from word 0 on
     std::vector<uint32_t> first_words;  // of each of Scene::images
     uint64_t words = 0;                 // of curves and images
     uint64_t page_words = 0;            // of a full page

@@ -25,7 +25,7 @@ class Walk {
         visit(0, all);
     }
 
-    std::set<cl_uint> triangles;  // in some leaf
+    std::set<uint32_t> triangles;  // in some leaf
     std::size_t nodes = 0, blocks = 0, lanes = 0;
     std::size_t stack = 0;  // the most entries that may wait
 
@@ -39,7 +39,7 @@ class Walk {
         return box;
     }
 
-    std::size_t visit(cl_uint index, const Bounds& outer) {
+    std::size_t visit(uint32_t index, const Bounds& outer) {
         require(index < bvh_.nodes.size());
         ++nodes;
         const BvhNode& node = bvh_.nodes[index];
@@ -71,12 +71,12 @@ class Walk {
         if (!inside) throw std::out_of_range("child of a BVH node");
     }
 
-    void leaf(cl_uint index, const Bounds& box) {
+    void leaf(uint32_t index, const Bounds& box) {
         require(index < bvh_.blocks.size());
         ++blocks;
         const TriangleBlock& block = bvh_.blocks[index];
         for (std::size_t lane = 0; lane < 8; ++lane) {
-            const cl_uint triangle = block.primitives[lane];
+            const uint32_t triangle = block.primitives[lane];
             if (triangle == BVH_EMPTY) {
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     EXPECT_EQ(block.vertices[0][axis][lane], block.vertices[1][axis][lane]);

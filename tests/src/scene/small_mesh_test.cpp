@@ -13,7 +13,7 @@ namespace {
 void expect_same_triangles(const SmallMesh& mesh, const std::vector<float>& positions) {
     ASSERT_EQ(mesh.triangle_count, positions.size() / 9);
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        const cl_uint corner = mesh.triangles[i / 9][i / 3 % 3];
+        const uint32_t corner = mesh.triangles[i / 9][i / 3 % 3];
         ASSERT_LT(corner, mesh.corner_count);
         EXPECT_EQ(
             std::bit_cast<uint32_t>(mesh.corners[i % 3][corner]),
