@@ -162,7 +162,7 @@ INLINE void intersect_stream(
 }
 
 kernel void intersect(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
@@ -174,7 +174,7 @@ kernel void intersect(
     global float* restrict path_media,
     global const uint* restrict ids,
     global float* restrict hits) {
-    const size_t stride = params->stride;
+    const size_t stride = settings->stride;
     const uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
     if (slot >= slots) return;
     const uint end = min(slots, slot + RAYS_PER_ITEM);

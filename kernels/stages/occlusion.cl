@@ -97,7 +97,7 @@ INLINE void connect_alone(
 }
 
 kernel void occlusion(
-    constant const RenderParams* restrict params,
+    constant const RenderParams* restrict settings,
     const uint slots,
     global const BvhNode* restrict nodes,
     global const TriangleBlock* restrict blocks,
@@ -108,7 +108,7 @@ kernel void occlusion(
     global const uint* restrict ids,
     global float* restrict radiances,
     global uchar* restrict fates) {
-    const size_t stride = params->stride;
+    const size_t stride = settings->stride;
     const uint slot = (uint)get_global_id(0) * RAYS_PER_ITEM;
     if (slot >= slots) return;
     const uint end = min(slots, slot + RAYS_PER_ITEM);

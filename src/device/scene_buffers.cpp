@@ -110,4 +110,18 @@ std::size_t SceneBuffers::bytes() const {
            lights.bytes() + media.bytes() + environment.bytes() + textures.bytes();
 }
 
+void SceneBuffers::name(KernelBuffers& buffers) const {
+    buffers.add("nodes", nodes, Access::read);
+    buffers.add("blocks", blocks, Access::read);
+    buffers.add("mesh", mesh, Access::read);
+    buffers.add("triangles", triangles, Access::read);
+    buffers.add("materials", materials, Access::read);
+    buffers.add("lights", lights, Access::read);
+    buffers.add("media", media, Access::read);
+    buffers.add("environment", environment, Access::read);
+    buffers.add("textures", textures.rows, Access::read);
+    for (std::size_t page = 0; page < textures.pages.size(); ++page)
+        buffers.add(fmt::format("texels_{}", page), textures.pages[page], Access::read);
+}
+
 }  // namespace wavepath

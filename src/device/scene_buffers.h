@@ -1,7 +1,7 @@
 // The scene on the device.
 #pragma once
 
-#include "device/device_array.h"
+#include "device/kernel_buffers.h"
 #include "scene/bvh_builder.h"
 #include "scene/light_tables.h"
 #include "scene/media_tables.h"
@@ -23,6 +23,7 @@ struct DeviceTextures {
 };
 
 struct SceneBuffers {
+    SceneBuffers() = default;  // holds nothing
     SceneBuffers(
         const Device& device,
         const Scene& scene,
@@ -45,6 +46,8 @@ struct SceneBuffers {
     DeviceTextures textures;
 
     std::size_t bytes() const;
+    // Under the names that kernels use.
+    void name(KernelBuffers& buffers) const;
 };
 
 }  // namespace wavepath

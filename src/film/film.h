@@ -12,7 +12,7 @@ namespace wavepath {
 // A range of pixels, in buffers of its own: those of a window of the render.
 // NOLINTNEXTLINE(bugprone-exception-escape): see Device
 struct FilmBand {
-    uint32_t first_pixel, pixels;
+    uint32_t first_pixel = 0, pixels = 0;
     DeviceArray<cl_float> planes;  // FILM_PLANES a pixel
     DeviceArray<cl_uint> flags;    // FILM_FLAGS a pixel
 };

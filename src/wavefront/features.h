@@ -63,8 +63,9 @@ struct Features {
     bool shading_normals() const { return vertex_normals || normal_maps; }
     // Surfaces that a ray may pass as the same ray.
     bool passages() const { return media || smooth_walls; }
-    // Connections have to know what they meet.
-    bool connections_by_hits() const { return passages() || lamps_on_lamps; }
+    // Connections to lights that have to know what they meet, and those that need not.
+    bool connections_by_hits() const { return sample_lights && (passages() || lamps_on_lamps); }
+    bool connections_by_occlusion() const { return sample_lights && !connections_by_hits(); }
 
     // The #define lines that kernels/shared/features.h expects.
     std::string defines() const;

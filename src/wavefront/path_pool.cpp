@@ -61,4 +61,21 @@ std::size_t PathPool::bytes() const {
            statistics.bytes();
 }
 
+void PathPool::name(KernelBuffers& buffers) const {
+    buffers.add("rays", rays, Access::write);
+    buffers.add("hits", hits, Access::write);
+    buffers.add("surfaces", surfaces, Access::write);
+    buffers.add("throughputs", throughputs, Access::write);
+    buffers.add("radiances", radiances, Access::write);
+    buffers.add("shadows", shadows, Access::write);
+    buffers.add("path_media", media, Access::write);
+    buffers.add("branches", branches, Access::write);
+    buffers.add("ids", ids, Access::write);
+    buffers.add("fates", fates, Access::write);
+    buffers.add("chunks", chunk_states, Access::write);
+    buffers.add("holes", holes, Access::write);
+    buffers.add("movers", movers, Access::write);
+    buffers.add("statistics", statistics, Access::write);
+}
+
 }  // namespace wavepath

@@ -1,18 +1,19 @@
 // The path slots and what manages them: everything that is sized by --pool.
 #pragma once
 
-#include "device/device_array.h"
+#include "device/kernel_buffers.h"
 #include "shared/queues.h"
 #include "wavefront/features.h"
 
 namespace wavepath {
 
 struct PathPool {
+    PathPool() = default;  // holds nothing
     PathPool(const Device& device, uint32_t slots, const Features& features);
 
-    uint32_t slots;
-    uint32_t stride;  // of the planes: the slots, padded so that planes do not fall on the same
-                      // cache sets
+    uint32_t slots = 0;
+    uint32_t stride = 0;  // of the planes: the slots, padded so that planes do not fall on the same
+                          // cache sets
     DeviceArray<cl_float> rays, hits, surfaces, throughputs, radiances;
     DeviceArray<cl_float> shadows;   // only where lights are sampled
     DeviceArray<cl_float> media;     // only in scenes with media
@@ -26,6 +27,8 @@ struct PathPool {
 
     uint32_t chunks() const { return (slots + QUEUE_CHUNK - 1) / QUEUE_CHUNK; }
     std::size_t bytes() const;
+    // Under the names that kernels use.
+    void name(KernelBuffers& buffers) const;
 };
 
 }  // namespace wavepath

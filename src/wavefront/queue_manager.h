@@ -3,15 +3,14 @@
 
 #include "device/scene_buffers.h"
 #include "film/film.h"
-#include "shared/film.h"
-#include "shared/params.h"
 #include "wavefront/features.h"
 #include "wavefront/path_pool.h"
 #include "wavefront/stage.h"
+#include "wavefront/window_buffers.h"
 
 #include <deque>
 #include <functional>
-#include <optional>
+#include <map>
 
 namespace wavepath {
 
@@ -43,14 +42,20 @@ struct CutPaths {
     void add(const CutPaths& more);
 };
 
+// Every buffer that a stage may ask for.
+KernelBuffers name_buffers(
+    const SceneBuffers& scene, const PathPool& pool, const WindowBuffers& window);
+
 class QueueManager {
   public:
-    // `max_cells`: the most units of work of one window. `count_lag`: iterations by which the host
-    // learns late how many slots have work. 0: launches are exact, and the device waits for the
-    // host; 1: it never waits, and idle slots return at their guards.
+    // `program`: built from `source`, which holds kernel_files(features). `scene` must outlive
+    // this. `max_cells`: the most units of work of one window. `count_lag`: iterations by which the
+    // host learns late how many slots have work. 0: launches are exact, and the device waits for
+    // the host; 1: it never waits, and idle slots return at their guards.
     QueueManager(
         const Device& device,
         const cl::Program& program,
+        const std::string& source,
         const Features& features,
         const SceneBuffers& scene,
         uint32_t slots,
@@ -81,22 +86,8 @@ class QueueManager {
     std::size_t bytes() const;
 
   private:
-    template <typename T>
-    using Array = DeviceArray<T>;
-    using Params = Array<RenderParams>;
-    using Floats = Array<cl_float>;
-    using Uints = Array<cl_uint>;
-    using Plan = Array<PlanRow>;
-    using Materials = Array<DeviceMaterial>;
-    using Lights = Array<DeviceLight>;
-    using Media = Array<DeviceMedium>;
-    using Map = Array<EnvironmentEntry>;
-    using Nodes = Array<BvhNode>;
-    using Blocks = Array<TriangleBlock>;
-    using Mesh = Array<SmallMesh>;
-    using Fates = Array<cl_uchar>;
-    using Chunks = Array<ChunkState>;
-
+    // Launches a stage whose numbers are `slots` alone.
+    void launch(const char* stage, uint32_t slots);
     void start(const Window& window, RenderParams params);
     struct Work {
         uint32_t active = 0;   // slots with work,
@@ -117,13 +108,9 @@ class QueueManager {
 
     const Device& device_;
     Features features_;
-    const SceneBuffers& scene_;
     Profile& profile_;
     PathPool pool_;
-    Params params_;
-    Plan plan_;
-    Floats cells_;
-    Uints cell_flags_;
+    WindowBuffers window_;
     uint32_t count_lag_;
     std::deque<Count> counts_;
     uint64_t iterations_ = 0;
@@ -132,145 +119,7 @@ class QueueManager {
     CutPaths window_cut_;
     uint32_t image_width_ = 1;
 
-    Stage<Params, cl_uint, Plan, Floats, Uints, Floats> assign_units_;
-    Stage<Params, cl_uint, Plan, Floats, Uints, Floats, Floats, Floats, Floats> generate_rays_;
-    Stage<
-        Params,
-        cl_uint,
-        Nodes,
-        Blocks,
-        Mesh,
-        Floats,
-        Materials,
-        DeviceTextures,
-        Floats,
-        Floats,
-        Uints,
-        Floats>
-        intersect_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Nodes,
-        Blocks,
-        Floats,
-        Materials,
-        DeviceTextures,
-        Floats,
-        Floats,
-        Uints,
-        Floats>>
-        find_contacts_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Floats,
-        Lights,
-        Media,
-        Floats,
-        Floats,
-        Floats,
-        Floats,
-        Floats,
-        Floats,
-        Uints,
-        Floats>>
-        sample_distance_;
-    Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats> interact_;
-    std::optional<Stage<Params, cl_uint, Floats, Materials, DeviceTextures, Floats, Floats, Floats>>
-        apply_textures_;
-    std::optional<Stage<Params, cl_uint, Materials, Floats, Floats, Uints, Floats>>
-        decide_boundary_;
-    std::optional<Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Floats, Floats, Floats>>
-        pass_boundary_;
-    std::optional<Stage<Params, cl_uint, Map, Floats, Floats, Floats, Floats>> shade_miss_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Floats,
-        Materials,
-        Lights,
-        DeviceTextures,
-        Floats,
-        Floats,
-        Floats,
-        Floats,
-        Floats>>
-        shade_emission_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Floats,
-        Materials,
-        Lights,
-        Map,
-        Media,
-        DeviceTextures,
-        Floats,
-        Floats,
-        Floats,
-        Floats,
-        Uints,
-        Floats,
-        Floats>>
-        direct_light_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Nodes,
-        Blocks,
-        Mesh,
-        Floats,
-        DeviceTextures,
-        Floats,
-        Uints,
-        Floats,
-        Fates>>
-        occlusion_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Nodes,
-        Blocks,
-        Floats,
-        Materials,
-        Media,
-        DeviceTextures,
-        Floats,
-        Uints,
-        Floats,
-        Fates>>
-        connect_through_media_;
-    std::optional<
-        Stage<Params, cl_uint, Floats, Materials, Floats, Floats, Uints, Floats, Floats, Floats>>
-        pass_walls_;
-    Stage<Params, cl_uint, Floats, Floats, Uints, Floats> first_hit_;
-    std::optional<Stage<
-        Params,
-        cl_uint,
-        Floats,
-        Materials,
-        Media,
-        Floats,
-        Floats,
-        Floats,
-        Floats,
-        Floats,
-        Uints>>
-        refract_boundary_;
-    Stage<Params, cl_uint, Materials, Floats, Floats, Floats, Floats, Uints, Floats, Floats>
-        sample_indirect_;
-    std::optional<
-        Stage<Params, cl_uint, Media, Floats, Floats, Floats, Floats, Floats, Uints, Floats>>
-        scatter_medium_;
-    Stage<Params, cl_uint, Media, Floats, Uints, Floats, Floats, Fates> roulette_compact_;
-    std::optional<Stage<Params, cl_uint, Floats, Floats, Floats, Floats, Uints, Floats, Fates>>
-        resume_branch_;
-    Stage<Params, cl_uint, Fates, Uints, Chunks, Uints> scan_queue_;
-    Stage<Params, cl_uint, cl_uint, Floats, Chunks, Uints, Uints> scatter_queue_;
-    Stage<Params, Uints, Uints, Floats, Floats, Floats, Floats, Uints, Floats, Floats> move_paths_;
-    Stage<Params, cl_uint, Floats, Floats, Floats, Uints, Floats, Uints> accumulate_;
-    Stage<Params, Plan, Floats, Uints, Floats, Uints> fold_film_;
+    std::map<std::string, Stage, std::less<>> stages_;
 };
 
 }  // namespace wavepath

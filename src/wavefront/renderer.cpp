@@ -141,6 +141,7 @@ void check_memory(const Device& device, uint64_t others, const RenderSettings& s
 void warm_up(
     const Device& device,
     const cl::Program& program,
+    const std::string& source,
     const Features& features,
     const SceneBuffers& buffers,
     const RenderSettings& settings,
@@ -150,7 +151,8 @@ void warm_up(
     params.max_scatterings = 1;
     Profile profile;
     QueueManager queues(
-        device, program, features, buffers, QUEUE_CHUNK, 1, settings.work_groups, 0, profile);
+        device, program, source, features, buffers, QUEUE_CHUNK, 1, settings.work_groups, 0,
+        profile);
     Film film(device, 1, 1, 1);
     const Window window{0, 1, {PlanRow{0, 1, 0, 1}}};
     queues.render(window, params, film);
@@ -294,9 +296,9 @@ RenderResult render(
             "{}: single precision does not tell the pixels of camera \"{}\" apart; bring it closer "
             "or widen its view",
             scene.name, settings.camera.name));
-    const cl::Program program = build_program(
-        device, assemble_source(features.defines(), QueueManager::kernel_files(features)),
-        &result.program);
+    const std::string source =
+        assemble_source(features.defines(), QueueManager::kernel_files(features));
+    const cl::Program program = build_program(device, source, &result.program);
     Profile profile;
     // no more slots and cells than there are units of work
     const uint64_t pixels = uint64_t{settings.width} * settings.height;
@@ -307,13 +309,13 @@ RenderResult render(
         {std::max(uint64_t{1} << 20U, uint64_t{4} * pool), units,
          device.info.max_allocation / (CELL_FLOATS * sizeof(cl_float))});
     QueueManager queues(
-        device, program, features, buffers, pool, max_cells, settings.work_groups,
+        device, program, source, features, buffers, pool, max_cells, settings.work_groups,
         settings.count_lag.value_or(device.info.is_cpu ? 0 : 1), profile);
     check_memory(device, buffers.bytes() + queues.bytes(), settings);
     Film film(device, settings.width, settings.height, max_cells);
     result.film_bytes = film.bytes();
     // last, so that no buffer takes the place of one it freed: oclgrind mixes them up
-    warm_up(device, program, features, buffers, settings, params);
+    warm_up(device, program, source, features, buffers, settings, params);
     result.times.program_build = watch.lap();
 
     Schedule schedule(settings, pool, max_cells);
