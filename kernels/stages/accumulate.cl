@@ -1,6 +1,6 @@
 // Adds every finished sample to its unit's sum, and hands the sum over when the unit is done.
 //
-// reads: hits, throughputs
+// reads: hits, throughputs, radiances, ids
 //
 // writes: radiances, ids, cells, cell_flags
 //

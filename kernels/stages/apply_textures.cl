@@ -1,6 +1,6 @@
 // Multiplies what `interact` found by what textures say at the point, and bends the shading normal.
 //
-// reads: rays, hits, scene, textures
+// reads: rays, hits, surfaces, triangles, materials, textures
 //
 // writes: surfaces
 //

@@ -2,7 +2,7 @@
 //
 // reads: plan
 //
-// writes: hits, ids, sums
+// writes: hits, ids, radiances (the sums)
 //
 // One work-item a slot in use.
 

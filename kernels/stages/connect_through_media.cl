@@ -3,7 +3,8 @@
 // walls one after the other and ends at its light: nothing is pushed off a boundary, so no lamp
 // below one is missed.
 //
-// reads: shadows, ids, scene, textures
+// reads: shadows, ids, radiances, nodes, blocks, triangles, materials, media, textures (holes,
+// tints)
 //
 // writes: radiances, fates
 //

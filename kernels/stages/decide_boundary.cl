@@ -2,7 +2,7 @@
 // opaque rest of the surface, which stands in the table of materials `material_count` rows behind.
 // Later stages see one or the other.
 //
-// reads: rays, hits, ids, materials
+// reads: rays, hits, ids, surfaces, materials
 //
 // writes: surfaces
 //

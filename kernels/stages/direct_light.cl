@@ -2,7 +2,8 @@
 // connection to `occlusion` or `connect_through_media` (notes 5, directRadianceEstimator, with the
 // f_r that the notes leave out; notes 6).
 //
-// reads: rays, hits, surfaces, throughputs, ids, media, scene, lights, textures
+// reads: rays, hits, surfaces, throughputs, ids, path_media, triangles, materials, lights,
+// environment, media, textures (emission)
 //
 // writes: shadows
 //

@@ -4,9 +4,9 @@
 // with it. Of a boundary that transmits in part the opaque share counts as an opaque surface. Of
 // opaque surfaces that touch one that emits towards the ray is hit (geometry/shown_face.cl).
 //
-// reads: rays, hits, media, ids, scene, textures
+// reads: rays, hits, path_media, ids, nodes, blocks, triangles, materials, textures (holes, tints)
 //
-// writes: hits, media
+// writes: hits, path_media
 //
 // One work-item a slot. Thin walls there are not seen.
 

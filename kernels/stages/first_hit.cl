@@ -1,8 +1,8 @@
 // Records what the camera saw first: albedo, shading normal, distance.
 //
-// reads: hits, surfaces, ids
+// reads: hits, surfaces, ids, radiances
 //
-// writes: sums
+// writes: radiances (the sums)
 //
 // One work-item a slot.
 

@@ -3,9 +3,9 @@
 // windows. Compensated sums [Kahan 1965]: 10^7 samples of a constant stay right to 1e-7. The
 // variance between batches is updated by Welford's recurrence, weighted [West 1979].
 //
-// reads: plan, cells, cell_flags
+// reads: plan, cells, cell_flags, film, film_flags
 //
-// writes: film, film_flags, of the band that holds the window's pixels
+// writes: film, film_flags (of the band that holds the window's pixels)
 //
 // One work-item a pixel of the window.
 

@@ -1,9 +1,9 @@
 // Starts the next sample of every slot whose path is over: of its unit, or of the unit one pool
 // further on.
 //
-// reads: plan
+// reads: hits, ids, plan
 //
-// writes: hits (a slot without work), ids, rays, throughputs, radiances, media
+// writes: hits (a slot without work), ids, rays, throughputs, radiances, path_media
 //
 // One work-item a slot.
 

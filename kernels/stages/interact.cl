@@ -1,6 +1,6 @@
 // Looks up what each ray hit: position, normals, base colour, material, light.
 //
-// reads: rays, hits, scene
+// reads: rays, hits, triangles, materials
 //
 // writes: surfaces
 //

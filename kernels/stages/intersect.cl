@@ -2,9 +2,9 @@
 // tint at once: there is nothing to decide at them. One that would leave all media there and meet
 // nothing behind is told so here, which saves it a round of all stages.
 //
-// reads: rays, media, ids, bvh, mesh, triangles, materials, textures (holes)
+// reads: rays, hits, path_media, ids, nodes, blocks, mesh, triangles, materials, textures (holes)
 //
-// writes: hits, media
+// writes: hits, path_media
 //
 // One work-item for RAYS_PER_ITEM slots.
 

@@ -1,8 +1,8 @@
 // Moves paths into idle slots, plane by plane.
 //
-// reads: holes, movers
+// reads: holes, movers, rays, hits, throughputs, radiances, ids, path_media, branches
 //
-// writes: rays, hits, throughputs, radiances, ids, media, branches
+// writes: rays, hits, throughputs, radiances, ids, path_media, branches
 //
 // One work-item a path; no slot is read and written in one launch.
 

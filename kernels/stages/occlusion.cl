@@ -1,6 +1,6 @@
 // Traces the pending connections and adds what arrives.
 //
-// reads: shadows, ids, bvh or mesh, triangles and textures (holes)
+// reads: shadows, ids, radiances, nodes, blocks, mesh, triangles, textures (holes)
 //
 // writes: radiances, fates
 //

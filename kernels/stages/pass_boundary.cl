@@ -3,9 +3,9 @@
 // there. That is no scattering. At other surfaces: which media the rays that they send back start
 // in.
 //
-// reads: rays, surfaces, scene
+// reads: rays, hits, surfaces, throughputs, path_media, triangles, materials
 //
-// writes: media, hits (the pass), throughputs
+// writes: path_media, hits (the pass), throughputs
 //
 // One work-item a slot.
 

@@ -4,9 +4,9 @@
 // meets behind is weighed against them as if the wall were not there. Other paths scatter at the
 // wall (sample_indirect).
 //
-// reads: rays, surfaces, ids, scene
+// reads: rays, hits, surfaces, throughputs, path_media, ids, triangles, materials
 //
-// writes: media, hits (the pass), throughputs
+// writes: path_media, hits (the pass), throughputs
 //
 // One work-item a slot.
 

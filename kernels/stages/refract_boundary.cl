@@ -2,9 +2,9 @@
 // give, else refracted into the medium that begins or ends there. A path that crosses carries
 // (n_i / n_t)^2 of the radiance behind [Veach 1997, section 5.2].
 //
-// reads: rays, surfaces, ids, scene, media
+// reads: rays, hits, surfaces, throughputs, path_media, ids, triangles, materials, media
 //
-// writes: rays, media, hits, throughputs, ids
+// writes: rays, hits, path_media, throughputs, ids
 //
 // One work-item a slot.
 

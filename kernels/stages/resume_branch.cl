@@ -2,9 +2,9 @@
 // S directions from a point; notes 6: N stops on a segment, M directions from each). Children run
 // one after the other in their parent's slot, so a slot stays one path.
 //
-// reads: branches
+// reads: branches, hits, throughputs, ids, fates
 //
-// writes: hits, rays, throughputs, ids, media, fates
+// writes: branches, hits, rays, throughputs, ids, path_media, fates
 //
 // One work-item a slot.
 

@@ -1,7 +1,7 @@
 // Decides which paths go on (notes 4, Russian roulette: survivors carry 1/q) and what becomes
 // of each slot.
 //
-// reads: ids, media
+// reads: ids, hits, throughputs, path_media, fates, media
 //
 // writes: throughputs, hits (the end), ids (scatterings of the last ray traced), fates
 //

@@ -2,9 +2,9 @@
 // sigma_t in alpha), and adds what the medium emits along the way. A segment that branches is
 // passed first, with weight exp(-tau), and stopped on by its other children.
 //
-// reads: rays, media, lights, scene
+// reads: rays, hits, throughputs, radiances, path_media, ids, branches, triangles, lights, media
 //
-// writes: hits and positions (a stop), throughputs, radiances, ids, branches
+// writes: hits, surfaces (a stop), throughputs, radiances, ids, branches
 //
 // One work-item a slot. A ray that misses everything has left all media, whatever its stack says:
 // the mesh was not closed.

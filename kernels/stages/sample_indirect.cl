@@ -1,9 +1,9 @@
 // Continues every path at a surface in a direction of its bsdf (notes 3 and 5,
 // indirectRadianceEstimator), or ends it.
 //
-// reads: surfaces, materials
+// reads: surfaces, rays, hits, throughputs, ids, path_media, branches, materials
 //
-// writes: rays, hits (the end), throughputs, ids, media, branches
+// writes: rays, hits (the end), throughputs, ids, path_media, branches
 //
 // One work-item a slot.
 

@@ -1,7 +1,7 @@
 // Counts each chunk of QUEUE_CHUNK slots: those with work, the ended paths by length, the
 // connections.
 //
-// reads: fates, ids
+// reads: fates, ids, statistics
 //
 // writes: chunks, statistics (a row each chunk)
 //

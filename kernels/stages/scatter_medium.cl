@@ -1,9 +1,9 @@
 // Continues every path that stopped in a medium in a direction of its phase function (notes 6), or
 // ends it.
 //
-// reads: surfaces (the position), media
+// reads: surfaces (the position), rays, hits, throughputs, ids, path_media, branches, media
 //
-// writes: rays, hits (the end), throughputs, ids, media, branches
+// writes: rays, hits (the end), throughputs, ids, path_media, branches
 //
 // One work-item a slot.
 

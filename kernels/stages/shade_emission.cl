@@ -1,6 +1,7 @@
 // Adds what the surface that was hit emits towards the viewer.
 //
-// reads: rays, hits, surfaces, throughputs, triangles, materials, lights, textures
+// reads: rays, hits, surfaces, throughputs, radiances, triangles, materials, lights, textures
+// (emission)
 //
 // writes: radiances
 //

@@ -1,6 +1,6 @@
 // Adds the environment's radiance to paths that left the scene.
 //
-// reads: rays, hits, throughputs, environment
+// reads: rays, hits, throughputs, radiances, environment
 //
 // writes: radiances
 //
