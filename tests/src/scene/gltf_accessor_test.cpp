@@ -210,7 +210,7 @@ constexpr Broken broken_accessors[] = {
     {"index_type", [](Json& root) { root["accessors"][1]["type"] = "VEC2"; },
      "accessor 1 is no SCALAR"},
     {"sparse_count_negative", [](Json& root) { root["accessors"][0]["sparse"]["count"] = -1; },
-     "sparse count -1 is not in 1 .. 3"},
+     "sparse.count is -1, not an integer"},
     {"sparse_count_too_large", [](Json& root) { root["accessors"][0]["sparse"]["count"] = 4; },
      "sparse count 4 is not in 1 .. 3"},
     {"sparse_past_view",
@@ -224,7 +224,7 @@ constexpr Broken broken_accessors[] = {
      "sparse indices have component type 5126"},
     {"sparse_view_missing",
      [](Json& root) { root["accessors"][0]["sparse"]["values"]["bufferView"] = -1; },
-     "refers to bufferView -1"},
+     "sparse.values.bufferView is -1, not an integer"},
     {"sparse_index_past_count",
      [](Json& root) {  // reads 0x0000, then the low half of 1.0F
          root["accessors"][0]["sparse"]["indices"]["bufferView"] = 0;
