@@ -1,5 +1,6 @@
 #include "scene/gltf_accessor.h"
 
+#include "support/case_files.h"
 #include "support/gltf_builder.h"
 
 #include <gmock/gmock.h>
@@ -266,6 +267,15 @@ TEST(GltfAccessor, RejectsNumbersThatAreNotFinite) {
             "scene.gltf: mesh 0, primitive 0, POSITION: row 2 is not finite; repair the mesh and "
             "export again");
     }
+}
+
+TEST(GltfAccessor, NamesTheRowOfANormalThatIsNone) {
+    const auto folder = case_folder("nan-normals");
+    if (folder.empty()) GTEST_SKIP() << "no folder of cases beside the checkout";
+    EXPECT_EQ(
+        error_of([&] { load_gltf(folder / "one_nan_normal.gltf"); }),
+        "one_nan_normal.gltf: mesh 0, primitive 0, NORMAL: row 20 is not finite; repair the mesh "
+        "and export again");
 }
 
 }  // namespace
