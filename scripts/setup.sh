@@ -20,7 +20,7 @@ build_packages=(
 )
 test_packages=(libbenchmark-dev libgmock-dev libgtest-dev)
 # The tests that use one of these are skipped, with the reason, where the distribution does not have it.
-checker_packages=(clang clang-format-14 clang-tidy dpkg-dev gnuplot-nox oclgrind openexr openimageio-tools
+checker_packages=(clang clang-format-14 clang-tidy dpkg-dev file gnuplot-nox oclgrind openexr openimageio-tools
                   python3 shellcheck)
 
 case "${1:-}" in

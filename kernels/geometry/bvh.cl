@@ -1,7 +1,7 @@
 // Closest hit and any hit of a ray in the 8-wide BVH: eight boxes or eight triangles a step, in one
-// work-item, because a traversal loop is what PoCL's vectoriser leaves scalar (docs/profiling.md
-// says what else was tried). A CPU takes many rays at once where the scene is large,
-// geometry/ray_stream.cl, or small, geometry/ray_packet.cl.
+// work-item, because a traversal loop is what PoCL's vectoriser leaves scalar
+// (docs/design/intersect.md says what else was tried). A CPU takes many rays at once where the
+// scene is large, geometry/ray_stream.cl, or small, geometry/ray_packet.cl.
 #pragma once
 
 #include "geometry/simd.cl"

@@ -1,7 +1,7 @@
 // Eight rays against every triangle of a small scene, without a tree: for CPUs, where a tree of a
 // few dozen triangles costs a ray more in branches that no predictor foresees than all of its
-// triangles cost without one (docs/profiling.md has the measurements). The bits are those of
-// closest_hit and any_hit. After the packets of [Wald 2001], which walk a tree together.
+// triangles cost without one (docs/design/intersect.md has the measurements). The bits are
+// those of closest_hit and any_hit. After the packets of [Wald 2001], which walk a tree together.
 //
 //     RayPacket packet;
 //     packet_open(&packet);

@@ -1,6 +1,6 @@
 // Many rays traced by one work-item in turn, one step each, so that one ray's next node is fetched
 // while the others compute: for CPUs, where a lone ray waits for memory most of the time
-// (docs/profiling.md has the measurements; on a GPU other work-items hide the wait).
+// (docs/design/intersect.md has the measurements; on a GPU other work-items hide the wait).
 //
 //     RayStream stream;
 //     stream_open(&stream);

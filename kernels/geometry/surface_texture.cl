@@ -68,7 +68,7 @@ INLINE Cover full_cover(void) {
 }
 
 // What closest_hit and any_hit take: nothing where no surface has holes, for the struct in memory
-// made shadow rays 4 % slower and others up to 5 % (docs/profiling.md).
+// made shadow rays 4 % slower and others up to 5 % (docs/design/intersect.md).
 INLINE const Cover* holes_in(const Cover* cover) {
     return HAS_ALPHA ? cover : 0;
 }

@@ -15,31 +15,42 @@
 // Within a tenth of the best efficiency on closelight and fog; .1 to .2 alike, .4 worse.
 #define GUIDE_SHARE 0.2f
 
+// The weights 1 / (1 - share) of what is scattered past the cone multiply along a path. Where next
+// to nothing is absorbed they would make rare samples of any size, so that a picture of a white
+// room came out at half its brightness: surfaces therefore have a share of at most what they
+// absorb, which keeps the second moment of a scattering at 1, and scatterings beyond these none.
+// What they gain is not measurable beyond the eighth on closelight and fog.
+#define GUIDE_SCATTERINGS 8
+
 typedef struct {
     Vec3 axis;            // of the cone, unit
     float one_minus_cos;  // of its half angle: keeps the digits of narrow cones
     float share;          // of the directions that are drawn from it, [0, 1)
 } Guide;
 
-// As seen from p. Close to the sphere and inside there is no cone: the share is 0.
-INLINE Guide guide_at(const RenderParams* params, const Vec3 p) {
+// As seen from p, after so many scatterings. Close to the sphere and inside there is no cone: the
+// share is 0.
+INLINE Guide guide_at(const RenderParams* params, const Vec3 p, const uint scattering) {
     Guide g;
     const Vec3 to = sub3(vec3(params->guide_x, params->guide_y, params->guide_z), p);
     const float distance2 = dot3(to, to);
     const float sine2 = min(params->guide_radius2 / distance2, 0.9f);
     g.axis = scale3(to, 1.0f / sqrt(distance2));
     g.one_minus_cos = sine2 / (1.0f + sqrt(1.0f - sine2));
-    g.share = sine2 < 0.9f ? GUIDE_SHARE : 0.0f;
+    const int aims = (scattering < GUIDE_SCATTERINGS) & (sine2 < 0.9f);
+    g.share = aims ? GUIDE_SHARE : 0.0f;
     return g;
 }
 
-// Of a surface, `diffuse` of whose samples are not specular: none where the cone is below it.
-INLINE Guide guide_over(const Guide guide, const Vec3 ng, const float diffuse) {
+// Of a surface of this base colour, `diffuse` of whose samples are not specular: none where the
+// cone is below it.
+INLINE Guide guide_over(const Guide guide, const Vec3 ng, const float diffuse, const Vec3 base) {
     Guide g = guide;
     const float sine2 = g.one_minus_cos * (2.0f - g.one_minus_cos);
     const float height = dot3(ng, g.axis);
     const int below = height < 0.0f ? height * height >= sine2 : 0;
-    g.share = below ? 0.0f : g.share * diffuse;
+    const float absorbed = 1.0f - max_component3(base);
+    g.share = below ? 0.0f : min(g.share, absorbed) * diffuse;
     return g;
 }
 

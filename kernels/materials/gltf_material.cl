@@ -136,7 +136,9 @@ INLINE int gltf_is_mirror(const Surface s) {
 // (stages/pass_walls.cl, stages/connect_through_media.cl).
 INLINE Vec3 gltf_straight_through(const Surface s, const float cosine) {
     if (!HAS_SMOOTH_WALLS) return vec3(0.0f, 0.0f, 0.0f);
-    return scale3(s.base, gltf_is_mirror(s) ? lobe_albedos(s, cosine).through : 0.0f);
+    // First for all, then chosen: LLVM 18 as PoCL 6.0 runs it gives up on the branch.
+    const float through = lobe_albedos(s, cosine).through;
+    return scale3(s.base, gltf_is_mirror(s) ? through : 0.0f);
 }
 
 // Probabilities that sampling takes the specular lobe, and those to the other side: their shares of

@@ -141,8 +141,8 @@ kernel void direct_light(
     float side = HAS_TRANSMISSION && dot3(ng, s.wi) < 0.0f ? -1.0f : 1.0f;
     Guide aimed;
     if (HAS_GUIDE) {
-        aimed = guide_at(&params, p);
-        const Guide guide = guide_over(aimed, ng, gltf_diffuse_share(surface, wo));
+        aimed = guide_at(&params, p, scattering);
+        const Guide guide = guide_over(aimed, ng, gltf_diffuse_share(surface, wo), surface.base);
         pdf_w = guided_pdf_w(guide, 0, s.wi, pdf_w);
     }
     if (HAS_MEDIA && MEDIA_SCATTER) {

@@ -15,7 +15,7 @@
 #include "shared/queues.h"
 
 // Paths that carry more are all kept: 1/3 was best or within 5 % of it, in variance times rays, on
-// Cornell box, close light, plates and terrain (docs/accuracy.md).
+// Cornell box, close light, plates and terrain (docs/measurements/2026-11-22-noise.md).
 #define ROULETTE_BELOW (1.0f / 3.0f)
 
 // What loses nothing at surfaces goes on by chance from some length on, so that it ends. Lower

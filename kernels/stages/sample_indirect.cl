@@ -53,7 +53,9 @@ kernel void sample_indirect(
     Guide guide;
     int guided = 0;
     if (HAS_GUIDE) {
-        guide = guide_over(guide_at(&params, position), ng, gltf_diffuse_share(surface, wo));
+        guide = guide_over(
+            guide_at(&params, position, scattering), ng, gltf_diffuse_share(surface, wo),
+            surface.base);
         guided = choose_guided(guide, &u);
     }
     BsdfSample s = gltf_sample(surface, wo, u, choice);

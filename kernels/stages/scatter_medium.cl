@@ -44,7 +44,7 @@ kernel void scatter_medium(
     Guide guide;
     int guided = 0;
     if (HAS_GUIDE) {
-        guide = guide_at(&params, position);
+        guide = guide_at(&params, position, scattering);
         guided = choose_guided(guide, &u);
     }
     PhaseSample s = phase_sample(anisotropy, direction, u);

@@ -105,9 +105,26 @@ void add_output_options(CLI::App& app, Outputs& outputs) {
     app.add_flag("--quiet", outputs.quiet, "Say nothing on the way but warnings and errors");
 }
 
-void check_outputs(const Outputs& outputs) {
+void check_outputs(Outputs& outputs) {
     fixed_exposure(outputs);
-    for (const auto& output : files_of(outputs)) check_writable(output);
+    std::vector<std::string> reasons;
+    const auto is_lost = [&](const std::filesystem::path& output) {
+        try {
+            check_writable(output);
+            return false;
+        } catch (const Error& error) {
+            reasons.emplace_back(error.what());
+            return true;
+        }
+    };
+    const bool wants_pictures = !outputs.images.empty();
+    std::erase_if(outputs.images, is_lost);
+    if (!outputs.json.empty() && is_lost(outputs.json)) outputs.json.clear();
+    if (reasons.empty()) return;
+    if (outputs.images.empty() && (wants_pictures || outputs.json.empty()))
+        throw Error("{}", reasons.front());
+    for (const std::string& reason : reasons) spdlog::error("{}", reason);
+    outputs.lacks_some = true;
 }
 
 void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inputs) {
@@ -127,7 +144,7 @@ void write_outputs(
     const auto fixed = fixed_exposure(outputs);
     const double exposure = fixed ? *fixed : auto_exposure(image);
     if (!fixed) spdlog::info("--exposure auto is {} EV", exposure);
-    bool failed = false;
+    bool failed = outputs.lacks_some;
     const auto attempt = [&](const auto& write) {
         try {
             write();

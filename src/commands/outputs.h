@@ -13,13 +13,15 @@ struct Outputs {
     std::string exposure = "0";  // of PNG: stops, or "auto"
     std::filesystem::path json;
     bool quiet = false;
+    bool lacks_some = false;  // that check_outputs has taken out
 };
 
 // Options for `outputs`, whose values beforehand are the defaults.
 void add_output_options(CLI::App& app, Outputs& outputs);
 
-// Throws Error for an output that can't be written.
-void check_outputs(const Outputs& outputs);
+// Says in a line each which outputs can't be written, and takes them out. Throws Error where no
+// picture would be left, or, without pictures, no report.
+void check_outputs(Outputs& outputs);
 
 // Throws Error for an output that is one of the inputs, or that is named twice.
 void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inputs);

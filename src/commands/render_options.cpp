@@ -5,6 +5,8 @@
 #include "scene/environment_map.h"
 #include "scene/gltf_loader.h"
 
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -66,6 +68,10 @@ Camera parse_camera(const RenderOptions& options, const Scene& scene) {
     Camera camera;
     if (options.look_at.empty()) {
         camera = choose_camera(scene, options.camera);
+        if (options.camera.empty() && scene.cameras.size() > 1)
+            spdlog::info(
+                "camera \"{}\" is the first of {}; others by --camera", camera.name,
+                scene.cameras.size());
     } else {
         if (!options.camera.empty()) throw Error("--camera and --look-at: give one of them");
         const auto v = parse_numbers<6>("--look-at", options.look_at, "ex,ey,ez,tx,ty,tz [m]");
@@ -137,7 +143,8 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
            "A scene of the file, by name or index; default the file's default")
         ->type_name("NAME|INDEX");
     app.add_option(
-           "--camera", o.camera, "A camera of the scene, by name or index; default its first")
+           "--camera", o.camera,
+           "A camera of the scene, by its name, its node's or index; default its first")
         ->type_name("NAME|INDEX");
     app.add_option("--look-at", o.look_at, "A camera of your own: eye and target [m]")
         ->type_name("ex,ey,ez,tx,ty,tz");

@@ -54,7 +54,7 @@ RenderResult render_watched(const Device& device, const RenderJob& job, bool qui
 
 }  // namespace
 
-void run_job(const RenderOptions& options, const Outputs& outputs, const PrintResult& print) {
+void run_job(const RenderOptions& options, Outputs outputs, const PrintResult& print) {
     prepare_signals();
     if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
     check_outputs(outputs);

@@ -14,7 +14,6 @@ using PrintResult = std::function<void(const Device&, const RenderJob&, const Re
 // From options to files; `print`, if any, comes between render and files. Throws Error, and what
 // write_outputs throws; Interrupted also where a signal to stop comes before every pixel has a
 // sample, and nothing is written.
-void run_job(
-    const RenderOptions& options, const Outputs& outputs, const PrintResult& print = nullptr);
+void run_job(const RenderOptions& options, Outputs outputs, const PrintResult& print = nullptr);
 
 }  // namespace wavepath

@@ -1,11 +1,13 @@
 #include "device/driver_failure.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 namespace wavepath {
@@ -29,6 +31,9 @@ void on_crash(int) {
     _exit(1);
 }
 
+// That PoCL writes for the chain [byte], by a good margin: its bitcode takes 1 MiB.
+constexpr rlim_t largest_kernel_file = 4U << 20U;
+
 // As PoCL 3.1 finds it (lib/CL/pocl_cache.c).
 std::filesystem::path pocl_cache_folder() {
     if (const char* named = std::getenv("POCL_CACHE_DIR")) return named;
@@ -42,11 +47,18 @@ std::filesystem::path pocl_cache_folder() {
 }  // namespace
 
 std::string pocl_cache_advice() {
+    rlimit files{};
+    if (getrlimit(RLIMIT_FSIZE, &files) == 0 && files.rlim_cur < largest_kernel_file)
+        return fmt::format(
+            "files may hold no more than {} KiB here, and its kernels take up to {}: raise ulimit "
+            "-f",
+            files.rlim_cur / 1024, largest_kernel_file / 1024);
+    const char* cache = std::getenv("POCL_KERNEL_CACHE");
     return fmt::format(
-        "its kernel cache {} may be damaged or not writable (full disk, ulimit -f): delete it, "
-        "name a folder elsewhere by POCL_CACHE_DIR, or go without by POCL_KERNEL_CACHE=0; or "
-        "memory or processes run out (ulimit -v, -u)",
-        pocl_cache_folder().string());
+        "its kernel cache {} may be damaged or not writable (full disk): delete it, name a folder "
+        "elsewhere by POCL_CACHE_DIR{}; or memory or processes run out (ulimit -v, -u)",
+        pocl_cache_folder().string(),
+        cache && std::string_view(cache) == "0" ? "" : ", or go without by POCL_KERNEL_CACHE=0");
 }
 
 DriverFailureGuard::DriverFailureGuard() {

@@ -233,7 +233,7 @@ Attempt attempt(
     arguments.maxBranchingFactor = branching;
     arguments.maxDepth = depth;
     // Full blocks are half the memory and as many steps; a tree that the caches hold anyway gains
-    // by tighter ones, most of all where few triangles span the scene (docs/profiling.md).
+    // by tighter ones, most of all where few triangles span the scene (docs/design/intersect.md).
     const bool is_small = count <= small_scene;
     arguments.sahBlockSize = is_small ? block_size / 2 : block_size;
     arguments.minLeafSize = is_small ? block_size / 4 : block_size;

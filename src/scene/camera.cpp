@@ -73,7 +73,11 @@ Camera choose_camera(const Scene& scene, const std::string& selector) {
     for (const Camera& camera : scene.cameras) {
         if (camera.name == selector) return camera;
         names.push_back(camera.name);
+        if (!camera.node.empty() && camera.node != camera.name)
+            names.back() += fmt::format(" (on \"{}\")", camera.node);
     }
+    for (const Camera& camera : scene.cameras)
+        if (camera.node == selector) return camera;
     const bool is_number =
         selector.find_first_not_of("0123456789") == std::string::npos && selector.size() < 9;
     if (is_number && std::stoul(selector) < scene.cameras.size())

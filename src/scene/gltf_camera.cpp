@@ -28,6 +28,7 @@ std::optional<Camera> read_camera(const GltfFile& file, const PlacedNode& placed
 
     Camera camera;
     camera.name = source.name.empty() ? placed.node.name : source.name;
+    camera.node = placed.node.name;
     camera.orthographic = source.type == "orthographic";
     camera.to_world = camera_frame(file, placed);
     if (camera.orthographic) {

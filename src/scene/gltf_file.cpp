@@ -53,6 +53,7 @@ constexpr auto extensions_without_effect = std::to_array<std::string_view>({
     "EXT_structural_metadata",  // tables of features' properties
     "FB_geometry_metadata",     // bounds and counts of a scene
     "GODOT_single_root",        // how to import the nodes
+    "FB_ngon_encoding",         // which triangles were one polygon
     "GRIFFEL_bim_data",         // properties of building parts
     "KHR_animation_pointer",    // what animations move: rendered at rest
     "KHR_interactivity",        // what happens when a user acts

@@ -146,8 +146,9 @@ void scale_lights(Scene& scene, const std::string& generator, double lumens_per_
     if (lumens_per_watt == 1 && generator.find("Blender") != std::string::npos &&
         std::ranges::any_of(scene.lights, looks_photometric))
         scene.ignored.emplace_back(
-            "lights this bright from Blender are in lumens as a rule; if the picture is white, use "
-            "--lumens-per-watt 683 or export in lighting mode Unitless");
+            "lights this bright from Blender are in lumens as a rule; if the picture is white, "
+            "export "
+            "in lighting mode Unitless, or, if the mode was Standard, use --lumens-per-watt 683");
     for (PunctualLight& light : scene.lights)
         for (float& channel : light.intensity) {
             channel = static_cast<float>(double{channel} / lumens_per_watt);

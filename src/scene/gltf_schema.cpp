@@ -90,9 +90,8 @@ void put_integer_right(Json& value) {
         value = static_cast<std::uint64_t>(number);
 }
 
-bool is_between(const Json& value, std::int64_t least, std::uint64_t most) {
-    if (value.is_number_unsigned()) return value.get<std::uint64_t>() <= most;
-    return value.is_number_integer() && value.get<std::int64_t>() >= least;
+bool is_integer_up_to(const Json& value, std::uint64_t most) {
+    return value.is_number_unsigned() && value.get<std::uint64_t>() <= most;
 }
 
 bool has_type(const Json& value, Type type) {
@@ -104,9 +103,9 @@ bool has_type(const Json& value, Type type) {
         case Type::text:
             return value.is_string();
         case Type::index:
-            return is_between(value, -1, 0x7FFFFFFF);
+            return is_integer_up_to(value, 0x7FFFFFFF);
         case Type::size:
-            return is_between(value, 0, std::numeric_limits<std::uint64_t>::max());
+            return is_integer_up_to(value, std::numeric_limits<std::uint64_t>::max());
         default:
             return value.is_object();
     }

@@ -52,12 +52,16 @@ std::string name_of(const PunctualLight& light, std::size_t index) {
                               : fmt::format("{} \"{}\"", kind, light.name);
 }
 
+std::string label_of(const std::string& material, uint32_t index) {
+    return material.empty() ? fmt::format("material {}", index) : fmt::format("\"{}\"", material);
+}
+
 }  // namespace
 
 std::string warning_of_hidden_lights(const Scene& scene, const NormalisedScene& geometry) {
     constexpr std::size_t most_names = 4;
     std::vector<bool> is_hidden(geometry.lights.size(), false);
-    const Material* glass = nullptr;
+    std::optional<uint32_t> glass;
     for (std::size_t t = 0; t < geometry.triangle_count() && !is_hidden.empty(); ++t) {
         const Material& material = scene.materials[geometry.materials[t]];
         if (material.boundary != Boundary::dielectric || refracts_roughly(material)) continue;
@@ -66,7 +70,7 @@ std::string warning_of_hidden_lights(const Scene& scene, const NormalisedScene& 
             const Rgb& intensity = geometry.lights[i].intensity;
             if (is_hidden[i] || *std::ranges::max_element(intensity) <= 0) continue;
             is_hidden[i] = falls_on(geometry.lights[i], ball);
-            if (is_hidden[i] && !glass) glass = &material;
+            if (is_hidden[i] && !glass) glass = geometry.materials[t];
         }
     }
     if (!glass) return {};
@@ -77,10 +81,10 @@ std::string warning_of_hidden_lights(const Scene& scene, const NormalisedScene& 
             names += (count > 1 ? ", " : "") + name_of(geometry.lights[i], i);
     if (count > most_names) names += fmt::format(" and {} more", count - most_names);
     return fmt::format(
-        "{}: light of {} is missing behind bodies of smooth glass (\"{}\"): a point is never found "
+        "{}: light of {} is missing behind bodies of smooth glass ({}): a point is never found "
         "through what bends light; use lamps with an area or a sky, roughnessFactor 0.04 or more, "
         "or a thin wall without KHR_materials_volume",
-        scene.name, names, glass->name);
+        scene.name, names, label_of(scene.materials[*glass].name, *glass));
 }
 
 }  // namespace wavepath

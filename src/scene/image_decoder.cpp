@@ -25,6 +25,7 @@ using Bytes = std::span<const unsigned char>;
 
 constexpr const char* unknown_kind =
     "is no PNG, JPEG or WebP image; convert it, or check that it is complete";
+constexpr const char* damaged_chunk = "is damaged (a checksum is wrong); export it again";
 
 bool is_webp(Bytes bytes) {
     return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 &&
@@ -149,6 +150,7 @@ ImageSize read_image_size(Bytes bytes) {
             ? WebPGetInfo(bytes.data(), bytes.size(), &width, &height) != 0
             : stbi_info_from_memory(
                   bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) != 0;
+    if (!known && has_damaged_chunks(bytes)) throw Error("{}", damaged_chunk);
     if (!known || width < 1 || height < 1) throw Error("{}", unknown_kind);
     return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
 }
@@ -157,7 +159,7 @@ TextureImage decode_image(Bytes bytes) {
     if (is_webp(bytes)) return decode_webp(bytes);
     if (has_overfull_huffman_tables(bytes))
         throw Error("is damaged (a Huffman table has too many codes); export it again");
-    if (has_damaged_chunks(bytes)) throw Error("is damaged (a checksum is wrong); export it again");
+    if (has_damaged_chunks(bytes)) throw Error("{}", damaged_chunk);
     int width = 0;
     int height = 0;
     int channels = 0;

@@ -118,6 +118,7 @@ struct Instance {
 
 struct Camera {
     std::string name;
+    std::string node;  // that it hangs on, by name
     bool orthographic = false;
     double y_fov = 0.7853981633974483;   // [rad] perspective
     double x_mag = 1;                    // [m] orthographic half width

@@ -10,7 +10,8 @@ namespace wavepath {
 
 // The samples of a pixel are one sequence of points. It is cut into batches, whose spread bounds
 // the variance of the mean from above (stretches of one sequence repel each other:
-// docs/accuracy.md); a batch falls into passes: one pass gives every pixel one unit of work.
+// docs/measurements/2026-11-22-noise.md); a batch falls into passes: one pass gives every pixel one
+// unit of work.
 class SamplePlan {
   public:
     static constexpr uint32_t most_rows = 1U << 16U;  // of one window

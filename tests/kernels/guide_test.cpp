@@ -19,7 +19,7 @@ kernel void directions(const uint count, global float* out, const float distance
     params.guide_y = -0.6f * distance;
     params.guide_z = 0.64f * distance;
     params.guide_radius2 = 0.01f;
-    const Guide guide = guide_at(&params, vec3(0.0f, 0.0f, 0.0f));
+    const Guide guide = guide_at(&params, vec3(0.0f, 0.0f, 0.0f), 0);
     Sample2 u = unit_pair(independent_pair(i, 29));
     const int guided = choose_guided(guide, &u);
     const Vec3 wi = guided ? guide_sample(guide, u) : sample_sphere(u);

@@ -1,6 +1,6 @@
 // Clear glass with vertex normals: whatever its shape, all light gets out again, and soon.
-#include "build_paths.h"
 #include "scene/gltf_loader.h"
+#include "support/case_files.h"
 #include "support/media.h"
 #include "support/rendering.h"
 #include "support/smooth_meshes.h"
@@ -165,9 +165,8 @@ TEST(SmoothGlass, OfRoughCubesIsLitAlike) {
 }
 
 TEST(SmoothGlass, OfSampleFilesLosesNothing) {
-    const std::filesystem::path folder =
-        std::filesystem::path(WAVEPATH_SOURCE_DIR) / ".." / "shared" / "cases" / "smooth-glass";
-    if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no " << folder;
+    const auto folder = case_folder("smooth-glass");
+    if (folder.empty()) GTEST_SKIP() << "no folder of cases beside the checkout";
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string kind = entry.path().extension();
         if (kind != ".glb" && kind != ".gltf") continue;
@@ -177,6 +176,21 @@ TEST(SmoothGlass, OfSampleFilesLosesNothing) {
         expect_a_furnace(render_scene(
             scene, square_settings("mis", perspective({0, 0, 5}, {0, 0, 0}, .5), 32, 16)));
     }
+}
+
+// A mirror .1 mm and less from the glass: where a ray from the one starts behind the other, light
+// is lost (.961 in another renderer). The mirror traps a path here and there until roulette ends
+// it.
+TEST(SmoothGlass, OfAJugInAMirrorRingLosesNothing) {
+    const auto folder = case_folder("jug-and-ring");
+    if (folder.empty()) GTEST_SKIP() << "no folder of cases beside the checkout";
+    Scene scene = load_gltf(folder / "jug_and_ring.glb");
+    scene.environment = constant_environment(1);
+    const RenderResult result =
+        render_scene(scene, square_settings("mis", scene.cameras.at(0), 64, 16));
+    EXPECT_TRUE(has_mean(image_mean(result), 1));
+    const auto off = [](float x) { return !(std::abs(x - 1) < 1e-5F); };
+    EXPECT_LT(std::ranges::count_if(result.film.image.channels.at("R"), off), 64 * 64 / 100);
 }
 
 }  // namespace

@@ -94,7 +94,6 @@ class WhitePlastic : public testing::Test {
         return render_scene(scene, settings);
     }
 
-  private:
     std::filesystem::path folder_;
 };
 
@@ -104,6 +103,23 @@ TEST_F(WhitePlastic, IsAsBrightAsItsDiffuseTwin) {
         const RenderResult result = render_case(name, 96, true);
         EXPECT_TRUE(has_mean(image_mean(result), 1, {.bias = 0.05, .truth_error = 5e-3}));
         EXPECT_THAT(result.warnings, IsEmpty());
+    }
+}
+
+// The albedo by the cosine of a plane in a white sky. By the letter of glTF it is above 1.
+TEST_F(WhitePlastic, PlaneSendsBackAllLightAtEveryAngle) {
+    Scene scene = load_gltf(folder_ / "white_plastic_plane.glb");
+    scene.environment = constant_environment(1);
+    for (const double cosine : {1., 0.7, 0.4, 0.2, 0.1, 0.05}) {
+        SCOPED_TRACE(cosine);
+        const Vec3d eye{std::sqrt(1 - cosine * cosine), cosine, 0};
+        RenderSettings settings =
+            square_settings("mis", orthographic(eye, {0, 0, 0}, 1e-3), 16, 256);
+        EXPECT_TRUE(
+            has_mean(shared_mean(render_for({}, scene, settings)), 1, {.truth_error = 1e-3}));
+        if (cosine > 0.5) continue;
+        settings.layers_conserve = false;
+        EXPECT_GT(shared_mean(render_scene(scene, settings)).mean, 1.01);
     }
 }
 

@@ -237,10 +237,12 @@ TEST(FarGeometry, FilesAreRenderedAsTheirPlainOnes) {
     };
     const Camera at_wall = perspective({0.3, 1, 1.9}, {0, 1, 0}, 0.785);
     const RenderResult plain = rendered("plain", at_wall, 0);
-    for (const char* name : {"stray_10000", "stray_1e+06", "stray_1e+07"})
+    for (const char* name :
+         {"stray_100", "stray_1000", "stray_10000", "stray_100000", "stray_1e+06", "stray_1e+07"})
         expect_same_picture(plain, rendered(name, at_wall, 0), name);
     const RenderResult ground = rendered("ground_100", at_wall, 0);
-    for (const char* name : {"ground_10000", "ground_1e+06", "ground_1e+07"})
+    for (const char* name :
+         {"ground_1000", "ground_10000", "ground_100000", "ground_1e+06", "ground_1e+07"})
         expect_same_picture(ground, rendered(name, at_wall, 0), name, 0.5);
     const Camera at_bubble = perspective({0.2, 0.15, 0.3}, {0, 0.04, 0}, 0.785);
     const RenderResult bubble = rendered("bubble_0", at_bubble, 1);

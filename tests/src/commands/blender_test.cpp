@@ -1,10 +1,15 @@
 // What files from Blender need: lumens, and an exposure that finds itself.
 #include "image/exr_writer.h"
+#include "scene/gltf_loader.h"
+#include "support/case_files.h"
 #include "support/command.h"
 #include "support/gltf_builder.h"
-#include "support/sample_files.h"
+#include "support/rendering.h"
 
 #include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
 
 namespace wavepath {
 namespace {
@@ -95,6 +100,45 @@ TEST_F(FromBlender, DefaultExportIsNoWhitePicture) {
     const Outcome outcome = run(render + " --lumens-per-watt 683 --exposure auto");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.words;
     EXPECT_LT(std::abs(json("a.json")["exposure_ev"].get<double>()), 4);
+}
+
+// What Blender calls a sun of strength 2 and a point light of 200 W is 683 times as much without
+// the option, in every pixel: the random numbers are the same. Then a point of the floor, made
+// white.
+TEST(BlenderFile, IsAsBrightAsInBlenderOnceLumensAreDivided) {
+    const auto folder = case_folder("blender");
+    if (folder.empty()) GTEST_SKIP() << "no folder of cases beside the checkout";
+    const auto load = [&](double lumens_per_watt) {
+        return load_gltf(
+            folder / "blender_default_light_mode.glb", "", default_most_texels, lumens_per_watt);
+    };
+    const auto pixels = [&](double lumens_per_watt) {
+        const Scene scene = load(lumens_per_watt);
+        RenderSettings settings = square_settings("mis", scene.cameras.at(0), 16, 4);
+        return render_scene(scene, settings).film.image.channels.at("R");
+    };
+    const std::vector<float> bright = pixels(1);
+    const std::vector<float> right = pixels(683);
+    for (std::size_t i = 0; i < right.size(); ++i)
+        EXPECT_NEAR(bright[i], 683 * right[i], 1e-4 * bright[i]) << i;
+
+    Scene scene = load(683);
+    ASSERT_EQ(scene.lights.size(), 2U);
+    EXPECT_NEAR(scene.lights[0].intensity[0], 2, 1e-5);
+    EXPECT_NEAR(scene.lights[1].intensity[0], 200 / (4 * std::numbers::pi), 1e-4);
+    scene.materials.at(scene.primitives.at(scene.instances.at(0).primitive).material) =
+        lambert(grey(1));
+    const Vec3d at{2.5, 0, 1.5};
+    RenderSettings settings = square_settings("mis", close_up(at, {0, 1, 0}, 0.1, 1e-3), 16, 64);
+    settings.termination = parse_termination("depth:1");
+    const Vec3d& lamp = scene.lights[1].position;
+    const double square =
+        std::pow(lamp[0] - at[0], 2) + std::pow(lamp[1], 2) + std::pow(lamp[2] - at[2], 2);
+    const double irradiance = -2 * scene.lights[0].direction[1] +
+                              200 / (4 * std::numbers::pi) * lamp[1] / std::pow(square, 1.5);
+    EXPECT_TRUE(has_mean(
+        shared_mean(render_for({}, scene, settings)), irradiance / std::numbers::pi,
+        {.truth_error = 1e-5}));
 }
 
 }  // namespace

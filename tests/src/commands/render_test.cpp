@@ -128,9 +128,9 @@ TEST_F(RenderCommand, RefusesWithOneLine) {
     expect_refused(path("nothing.gltf"), "nothing.gltf");
     expect_refused(cornell_box + " --size 0x8", "--size 0x8");
     expect_refused(cornell_box + " --size 8", "--size 8");
-    expect_refused(cornell_box + " --spp 0", "1 to 4294967295");
+    expect_refused(cornell_box + " --spp 0", "4294967295");
     expect_refused(cornell_box + " --spp -3", "Value -3");
-    expect_refused(cornell_box + " --seed -1", "0 to 4294967295");
+    expect_refused(cornell_box + " --seed -1", "4294967295");
     expect_refused(cornell_box + " --spp 4 --time 1", "give one of them");
     expect_refused(cornell_box + " --exposure nan", "--exposure nan");
     expect_refused(cornell_box + " --exposure abc", "--exposure abc: use stops");
@@ -176,10 +176,40 @@ TEST_F(RenderCommand, RefusesOutputsThatAreOneFileHoweverTheyAreLinked) {
     for (const char* name : {"hard.exr", "soft.exr"})
         expect_refused(
             cornell_box + " -o " + path("a.exr") + " --json " + path(name), "are one file");
-    expect_refused(cornell_box + " --json " + path("loop.exr"), "choose another name");
-    expect_refused(cornell_box + " --json " + path(std::string(300, 'a')), "choose another name");
-    expect_refused(cornell_box + " --json /dev/null", "is not the name of a regular file");
     EXPECT_EQ(std::filesystem::file_size(path("a.exr")), 6U);
+}
+
+// It is said before the render, which is lost by no misspelt name of a further file.
+TEST_F(RenderCommand, WritesTheOtherOutputsWhereOneCannotBe) {
+    std::filesystem::create_symlink("loop.exr", path("loop.exr"));
+    const std::string nowhere = path("no/such/folder.png");
+    const std::pair<std::string, std::string> lost[] = {
+        {"--json " + path("loop.exr"), "choose another name"},
+        {"--json " + path(std::string(300, 'a')), "choose another name"},
+        {"--json /dev/null", "is not the name of a regular file"},
+        {"-o " + nowhere, nowhere},
+    };
+    const std::string render = "render " + cornell_box + " --size 4x4 --spp 1 --quiet ";
+    for (const auto& [option, words] : lost) {
+        const Outcome outcome = run(render + "-o " + path("a.exr") + " " + option);
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_THAT(outcome.words, HasSubstr(words));
+        EXPECT_EQ(std::ranges::count(outcome.words, '\n'), 1) << outcome.words;
+        EXPECT_TRUE(std::filesystem::remove(path("a.exr"))) << option;
+    }
+    EXPECT_EQ(run(render + "-o " + nowhere + " --json " + path("a.json")).exit_code, 1);
+    EXPECT_FALSE(std::filesystem::exists(path("a.json"))) << "no picture is left to render";
+}
+
+// PoCL's kernels are files too.
+TEST_F(RenderCommand, SaysThatALimitOnFilesStopsTheKernels) {
+    const std::string words = path("words");
+    const std::string command = "bash -c 'ulimit -f 64; " WAVEPATH_BINARY " render " + cornell_box +
+                                " --size 4x4 --spp 1 --quiet -o " + path("a.exr") + "' > " + words +
+                                " 2>&1";
+    EXPECT_NE(std::system(command.c_str()), 0);
+    EXPECT_THAT(folder.read("words"), HasSubstr("no more than 64 KiB"));
+    EXPECT_EQ(std::ranges::count(folder.read("words"), '\n'), 1);
 }
 
 TEST_F(RenderCommand, ReportsScenesWhoseNamesAreNotUtf8) {

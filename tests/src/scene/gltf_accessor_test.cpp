@@ -1,5 +1,6 @@
 #include "scene/gltf_accessor.h"
 
+#include "support/case_files.h"
 #include "support/gltf_builder.h"
 
 #include <gmock/gmock.h>
@@ -210,7 +211,7 @@ constexpr Broken broken_accessors[] = {
     {"index_type", [](Json& root) { root["accessors"][1]["type"] = "VEC2"; },
      "accessor 1 is no SCALAR"},
     {"sparse_count_negative", [](Json& root) { root["accessors"][0]["sparse"]["count"] = -1; },
-     "sparse count -1 is not in 1 .. 3"},
+     "sparse.count is -1, not an integer"},
     {"sparse_count_too_large", [](Json& root) { root["accessors"][0]["sparse"]["count"] = 4; },
      "sparse count 4 is not in 1 .. 3"},
     {"sparse_past_view",
@@ -224,7 +225,7 @@ constexpr Broken broken_accessors[] = {
      "sparse indices have component type 5126"},
     {"sparse_view_missing",
      [](Json& root) { root["accessors"][0]["sparse"]["values"]["bufferView"] = -1; },
-     "refers to bufferView -1"},
+     "sparse.values.bufferView is -1, not an integer"},
     {"sparse_index_past_count",
      [](Json& root) {  // reads 0x0000, then the low half of 1.0F
          root["accessors"][0]["sparse"]["indices"]["bufferView"] = 0;
@@ -266,6 +267,15 @@ TEST(GltfAccessor, RejectsNumbersThatAreNotFinite) {
             "scene.gltf: mesh 0, primitive 0, POSITION: row 2 is not finite; repair the mesh and "
             "export again");
     }
+}
+
+TEST(GltfAccessor, NamesTheRowOfANormalThatIsNone) {
+    const auto folder = case_folder("nan-normals");
+    if (folder.empty()) GTEST_SKIP() << "no folder of cases beside the checkout";
+    EXPECT_EQ(
+        error_of([&] { load_gltf(folder / "one_nan_normal.gltf"); }),
+        "one_nan_normal.gltf: mesh 0, primitive 0, NORMAL: row 20 is not finite; repair the mesh "
+        "and export again");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Tests src/scene/gltf_camera.cpp.
+#include "scene/camera.h"
 #include "scene/gltf_nodes.h"
 #include "support/gltf_builder.h"
 
@@ -79,6 +80,25 @@ TEST(GltfCamera, KeepsTheOrderOfNodes) {
     ASSERT_EQ(scene.cameras.size(), 2U);
     EXPECT_EQ(scene.cameras[0].name, "b");
     EXPECT_EQ(scene.cameras[1].name, "a");
+}
+
+// Blender's users see the name of the object, which is the node's.
+TEST(GltfCamera, IsFoundByTheNameOfItsNode) {
+    GltfBuilder gltf;
+    gltf.triangle();
+    for (const char* name : {"Camera", "Camera.001"}) {
+        Json camera = perspective;
+        camera["name"] = name;
+        gltf.add("cameras", camera);
+    }
+    gltf.node({{"camera", 0}, {"name", "Camera.001"}});
+    gltf.node({{"camera", 1}, {"name", "close"}});
+    const Scene scene = load(gltf);
+    EXPECT_EQ(choose_camera(scene, "close").name, "Camera.001");
+    EXPECT_EQ(choose_camera(scene, "Camera.001").node, "close") << "names of cameras come first";
+    EXPECT_THAT(
+        error_of([&] { choose_camera(scene, "far"); }),
+        HasSubstr("Camera (on \"Camera.001\"), Camera.001 (on \"close\")"));
 }
 
 TEST(GltfCamera, RejectsWhatSeesNothing) {

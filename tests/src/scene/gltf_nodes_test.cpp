@@ -242,7 +242,8 @@ TEST(GltfNodes, RejectsReferencesOutOfRange) {
         "scene.gltf: node 0 \"arm\": refers to node 7, but the file has 1 of them; repair the "
         "index or "
         "export again");
-    EXPECT_THAT(placing_error({{"children", {-1}}}), HasSubstr("refers to node -1"));
+    EXPECT_THAT(
+        placing_error({{"children", {-1}}}), HasSubstr("children[0] is -1, not an integer"));
     EXPECT_THAT(placing_error({{"mesh", 3}}), HasSubstr("node 0: refers to mesh 3"));
     EXPECT_THAT(placing_error({{"camera", 0}}), HasSubstr("node 0: refers to camera 0"));
 }

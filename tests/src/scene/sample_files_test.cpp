@@ -192,7 +192,7 @@ const std::map<std::string, std::string> refusals{
     {"magnum/scene-invalid-child-oob.gltf", "node 4: refers to node 7, but the file has 7 of them"},
     {"magnum/buffer-invalid-short-size.glb", "default scene: holds no triangles"},
     {"magnum/mesh-invalid.gltf",
-     "mesh 46 \"disallowed skinning morph target attribute\": primitives[0].attributes is missing"},
+     "mesh 41 \"invalid primitive property\": primitives[0].mode is -1, not an integer"},
     {"assimp/wrongTypes__badNumber.gltf", "material 0 \"Texture\": normalTexture.index is missing"},
     {"assimp/wrongTypes__badArray.gltf", "mesh 0 \"Mesh\": primitives is an object, not an array"},
     {"assimp/MissingBin__BoxTextured.gltf", "buffer 0: BoxTextured0.bin is not there"},
