@@ -28,7 +28,7 @@ INLINE void store_hit(global float* hits, const size_t stride, const size_t slot
 // slab by at most 4 ulp of that (inverse, product, fma), and the sheared vertices of the triangle
 // test by 4 more; near bounds come nearer and far ones go farther by 16 ulp of it. So no box is
 // missed whose triangle the triangle test would hit, and it costs nothing a node. Boxes outside the
-// unit cube are wider by what rounding of their own coordinates moves (scene/bvh_builder.cpp).
+// unit cube are wider by what rounding of their own coordinates moves (prepare/bvh_builder.cpp).
 typedef struct {
     float ix, iy, iz;  // 1 / direction, finite
     float near_x, near_y, near_z;

@@ -15,7 +15,7 @@
 #define RAY_OFFSET 0x1p-20f
 
 // The same at p: outside the unit cube rounding grows with the distance from it, and triangles with
-// it (scene/subdivide.h). Not by the largest coordinate: of three absolute values LLVM's SLP pass
+// it (prepare/subdivide.h). Not by the largest coordinate: of three absolute values LLVM's SLP pass
 // makes a vector, and the kernels around them stay scalar on PoCL.
 INLINE float ray_offset(const Vec3 p) {
     if (!HAS_FAR_GEOMETRY) return RAY_OFFSET;

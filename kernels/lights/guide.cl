@@ -1,7 +1,7 @@
 // Directions towards the surroundings of the lamps. What lies close to a lamp is far brighter than
 // all else and fills a small angle, so that bsdf and phase function find it rarely and every find
 // is a bright dot. A share of the directions is therefore drawn uniformly from the cone round a
-// sphere about the lamps (scene/light_guide.cpp), and all are weighed by the density of the
+// sphere about the lamps (prepare/light_guide.cpp), and all are weighed by the density of the
 // mixture: a defensive mixture [Hesterberg 1995], whose weights exceed those of the bsdf alone by
 // 1 / (1 - share) at most.
 #pragma once

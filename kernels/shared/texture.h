@@ -1,5 +1,5 @@
 // Textures as kernels see them: how a material reads an image. The texels themselves are words of
-// up to TEXTURE_MOST_PAGES buffers (materials/texture.cl, src/scene/texture_tables.cpp).
+// up to TEXTURE_MOST_PAGES buffers (materials/texture.cl, src/prepare/texture_tables.cpp).
 #ifndef WAVEPATH_TEXTURE_H
 #define WAVEPATH_TEXTURE_H
 

@@ -1,9 +1,9 @@
 #include "commands/render_options.h"
 
 #include "error.h"
+#include "gltf/gltf_loader.h"
 #include "scene/camera.h"
 #include "scene/environment_map.h"
-#include "scene/gltf_loader.h"
 
 #include <spdlog/spdlog.h>
 

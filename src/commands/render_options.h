@@ -1,7 +1,7 @@
 // The options that `render` and `profile` share, and what they amount to.
 #pragma once
 
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "wavefront/renderer.h"
 
 #include <filesystem>

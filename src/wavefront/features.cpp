@@ -1,6 +1,6 @@
 #include "wavefront/features.h"
 
-#include "scene/device_material.h"
+#include "prepare/device_material.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,11 +1,11 @@
 // What a scene and a method need of the chain; kernels/shared/features.h is the other side.
 #pragma once
 
-#include "scene/light_tables.h"
-#include "scene/media_tables.h"
-#include "scene/normalise.h"
+#include "prepare/light_tables.h"
+#include "prepare/media_tables.h"
+#include "prepare/normalise.h"
+#include "prepare/texture_tables.h"
 #include "scene/scene.h"
-#include "scene/texture_tables.h"
 #include "wavefront/method.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 // (docs/methods.md).
 #pragma once
 
-#include "scene/light_tables.h"
+#include "prepare/light_tables.h"
 
 #include <cstdint>
 #include <string>

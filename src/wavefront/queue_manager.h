@@ -1,10 +1,10 @@
 // The chain of kernels: from units of work to cells to the film.
 #pragma once
 
-#include "device/scene_buffers.h"
 #include "film/film.h"
 #include "wavefront/features.h"
 #include "wavefront/path_pool.h"
+#include "wavefront/scene_buffers.h"
 #include "wavefront/stage.h"
 #include "wavefront/window_buffers.h"
 

@@ -1,12 +1,13 @@
 #include "wavefront/renderer.h"
 
 #include "device/program.h"
+#include "host_memory.h"
+#include "prepare/camera_params.h"
+#include "prepare/contacts.h"
+#include "prepare/hidden_lights.h"
+#include "prepare/light_guide.h"
+#include "prepare/placement.h"
 #include "scene/camera.h"
-#include "scene/contacts.h"
-#include "scene/hidden_lights.h"
-#include "scene/host_memory.h"
-#include "scene/light_guide.h"
-#include "scene/placement.h"
 #include "wavefront/sample_plan.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include "device/device_array.h"
 #include "device/device_probe.h"
 #include "device/program.h"
-#include "scene/bvh_builder.h"
+#include "prepare/bvh_builder.h"
 #include "support/embree_scene.h"
 #include "wavefront/features.h"
 

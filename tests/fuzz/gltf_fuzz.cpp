@@ -6,13 +6,13 @@
 // exception, a crash, a sanitizer's report or 20 s of work without an answer, leaves the file in
 // ./gltf_fuzz_case and ends the program. Build it with the preset `asan`.
 #include "error.h"
-#include "scene/bvh_builder.h"
-#include "scene/gltf_loader.h"
-#include "scene/light_guide.h"
-#include "scene/light_tables.h"
-#include "scene/media_tables.h"
-#include "scene/normalise.h"
-#include "scene/texture_tables.h"
+#include "gltf/gltf_loader.h"
+#include "prepare/bvh_builder.h"
+#include "prepare/light_guide.h"
+#include "prepare/light_tables.h"
+#include "prepare/media_tables.h"
+#include "prepare/normalise.h"
+#include "prepare/texture_tables.h"
 #include "wavefront/features.h"
 
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 // by default. WAVEPATH_INSIDE_RAYS: those from inside closed meshes, 10^6 by default; 10^9 takes an
 // hour or two.
 #include "build_paths.h"
-#include "scene/bvh_builder.h"
-#include "scene/gltf_loader.h"
-#include "scene/normalise.h"
+#include "gltf/gltf_loader.h"
+#include "prepare/bvh_builder.h"
+#include "prepare/normalise.h"
 #include "support/probe.h"
 #include "support/ray_oracle.h"
 

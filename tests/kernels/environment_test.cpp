@@ -1,5 +1,5 @@
-#include "scene/light_tables.h"
-#include "scene/normalise.h"
+#include "prepare/light_tables.h"
+#include "prepare/normalise.h"
 #include "scene/scene.h"
 #include "shared/params.h"
 #include "support/grid.h"

@@ -1,4 +1,4 @@
-#include "scene/alias_table.h"
+#include "prepare/alias_table.h"
 #include "shared/scene.h"
 #include "support/probe.h"
 #include "support/statistics.h"

@@ -1,5 +1,5 @@
-#include "scene/bvh_builder.h"
-#include "scene/small_mesh.h"
+#include "prepare/bvh_builder.h"
+#include "prepare/small_mesh.h"
 #include "support/probe.h"
 #include "support/ray_oracle.h"
 

@@ -1,4 +1,4 @@
-#include "scene/bvh_builder.h"
+#include "prepare/bvh_builder.h"
 #include "support/probe.h"
 #include "support/ray_oracle.h"
 

@@ -1,5 +1,5 @@
 // Spots from the host's tables through the kernel: cones from .05 to 90 degrees.
-#include "scene/light_tables.h"
+#include "prepare/light_tables.h"
 #include "shared/scene.h"
 #include "support/probe.h"
 

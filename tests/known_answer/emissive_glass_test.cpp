@@ -1,5 +1,5 @@
 // Bodies that emit and let light through, on a floor before a wall: all methods see one picture.
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/case_files.h"
 #include "support/rendering.h"
 

@@ -1,6 +1,6 @@
 // Two instances of a mesh, of which one is mirrored by a negative scale, in a room that is its own
 // mirror image: so is its picture.
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/case_files.h"
 #include "support/rendering.h"
 

@@ -1,6 +1,6 @@
 // Spots of half a degree to 45, with soft and hard edges, as their files say: what a spot lights in
 // its middle does not depend on how wide it is.
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/case_files.h"
 #include "support/rendering.h"
 

@@ -1,5 +1,5 @@
 // Normal maps with closed forms.
-#include "scene/tangents.h"
+#include "gltf/tangents.h"
 #include "support/textured_scenes.h"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // Maps of few texels from files: as bright as the bilinear lookup makes them, on a white plate, on
 // a ball of metal, and behind a lamp.
+#include "gltf/gltf_loader.h"
 #include "scene/environment_map.h"
-#include "scene/gltf_loader.h"
 #include "support/case_files.h"
 #include "support/rendering.h"
 

@@ -2,7 +2,7 @@
 // standard errors, from Mitsuba 3.9 (path or volpath, box filter), in reference/. Block (0, 0) is
 // the top left one.
 #include "build_paths.h"
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/media.h"
 #include "support/rendering.h"
 

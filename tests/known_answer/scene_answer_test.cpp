@@ -1,7 +1,7 @@
 // The known answers that the READMEs of scenes/ state, from the scenes' own files.
 #include "build_paths.h"
-#include "scene/gltf_loader.h"
-#include "scene/normalise.h"
+#include "gltf/gltf_loader.h"
+#include "prepare/normalise.h"
 #include "support/rendering.h"
 
 namespace wavepath {

@@ -1,6 +1,6 @@
 // Sample models that check themselves: a patch shows what it tests beside one that shows what it
 // should be. Places are pixels of a picture of 512 x 512, seen as the published ones are.
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/rendering.h"
 #include "support/sample_files.h"
 

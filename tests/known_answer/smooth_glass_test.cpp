@@ -1,5 +1,5 @@
 // Clear glass with vertex normals: whatever its shape, all light gets out again, and soon.
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/case_files.h"
 #include "support/media.h"
 #include "support/rendering.h"

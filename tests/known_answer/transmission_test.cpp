@@ -1,5 +1,5 @@
 // Thin walls that let light through (KHR_materials_transmission).
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/case_files.h"
 #include "support/rendering.h"
 

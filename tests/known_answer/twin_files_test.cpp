@@ -1,5 +1,5 @@
 // Files that say the same in two ways have the same picture, to the bit.
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/case_files.h"
 #include "support/rendering.h"
 

@@ -1,6 +1,6 @@
 // What is white reflects or lets through all light, so that a closed room whose only other surface
 // is a black lamp of radiance 1 has the radiance 1 everywhere, whatever its walls are like.
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/rendering.h"
 #include "support/sample_files.h"
 

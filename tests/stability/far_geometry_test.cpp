@@ -4,7 +4,7 @@
 #include "support/rendering.h"
 #include "support/sample_files.h"
 
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "scene/transform.h"
 
 #include <cmath>

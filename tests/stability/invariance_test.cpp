@@ -1,6 +1,6 @@
 // Where a scene lies and how large it is must not show.
 #include "build_paths.h"
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/rendering.h"
 #include "support/temporary_folder.h"
 

@@ -1,7 +1,7 @@
 // Embree's side of tests and benchmarks.
 #pragma once
 
-#include "scene/embree.h"
+#include "prepare/embree.h"
 #include "support/ray_oracle.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/gltf_loader.h"
+#include "gltf/gltf_loader.h"
 #include "support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>

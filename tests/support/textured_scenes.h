@@ -1,7 +1,7 @@
 // Plates and balls for tests of what textures do to them.
 #pragma once
 
-#include "scene/tangents.h"
+#include "gltf/tangents.h"
 #include "support/images.h"
 #include "support/rendering.h"
 

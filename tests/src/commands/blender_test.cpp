@@ -1,6 +1,6 @@
 // What files from Blender need: lumens, and an exposure that finds itself.
+#include "gltf/gltf_loader.h"
 #include "image/exr_writer.h"
-#include "scene/gltf_loader.h"
 #include "support/case_files.h"
 #include "support/command.h"
 #include "support/gltf_builder.h"

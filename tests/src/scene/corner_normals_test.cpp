@@ -2,9 +2,9 @@
 // them.
 #include "scene/corner_normals.h"
 
-#include "scene/gltf_loader.h"
-#include "scene/normalise.h"
-#include "scene/tangents.h"
+#include "gltf/gltf_loader.h"
+#include "gltf/tangents.h"
+#include "prepare/normalise.h"
 #include "scene/transform.h"
 #include "support/case_files.h"
 #include "support/rendering.h"

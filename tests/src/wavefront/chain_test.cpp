@@ -2,9 +2,9 @@
 #include "wavefront/chain.h"
 
 #include "device/program.h"
-#include "device/scene_buffers.h"
 #include "wavefront/path_pool.h"
 #include "wavefront/queue_manager.h"
+#include "wavefront/scene_buffers.h"
 
 #include <gmock/gmock.h>
 
