@@ -56,30 +56,19 @@ std::string Features::defines() const {
     return text;
 }
 
-std::vector<bool> worn_materials(const Scene& scene, const NormalisedScene& geometry) {
-    std::vector<bool> worn(scene.materials.size(), false);
-    for (const uint32_t material : geometry.materials) worn[material] = true;
-    return worn;
-}
+namespace {
 
-Features features_of(
-    const Scene& scene,
-    const NormalisedScene& geometry,
-    const LightTables& lights,
-    const MediaTables& media,
-    const TextureTables& textures,
-    const Method& method,
-    bool sobol) {
-    Features f;
-    f.vertex_normals = !geometry.normals.empty();
-    f.vertex_colors = !geometry.colors.empty();
-    const std::vector<bool> worn = worn_materials(scene, geometry);
+// On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait for
+// memory together.
+constexpr std::size_t stream_nodes = 1024;
+
+void add_materials(Features& f, const Scene& scene, const std::vector<bool>& worn) {
     for (std::size_t m = 0; m < worn.size(); ++m) {
         if (!worn[m]) continue;
         const Material& material = scene.materials[m];
         const bool lobes = has_lobes(material);
         f.specular = f.specular || lobes;
-        f.layers_conserve = f.layers_conserve || has_layer(material);
+        f.has_layers = f.has_layers || has_layer(material);
         f.lobe_textures =
             f.lobe_textures ||
             (lobes && (material.has(TEXTURE_METALLIC_ROUGHNESS) || material.has(TEXTURE_SPECULAR) ||
@@ -97,37 +86,78 @@ Features features_of(
             f.tinted_boundaries || (material.boundary == Boundary::index_matched &&
                                     (f.vertex_colors || has_tint(material)));
     }
+}
+
+void add_geometry(Features& f, const NormalisedScene& geometry) {
+    f.vertex_normals = !geometry.normals.empty();
+    f.vertex_colors = !geometry.colors.empty();
     f.normal_maps = !geometry.tangents.empty();
-    f.textures = f.textures || f.lobe_textures || f.normal_maps;
     f.uv_sets = (geometry.uvs[0].empty() ? 0U : 1U) + (geometry.uvs[1].empty() ? 0U : 1U);
     f.vertex_alphas = !geometry.alphas.empty();
-    f.texture_pages = textures.pages();
-    f.texture_page_words = textures.page_words;
-    f.area_lights =
-        std::ranges::any_of(lights.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
+    f.far_geometry = geometry.is_far();
     f.punctual_lights = !geometry.lights.empty();
-    f.environment = scene.environment.has_value();
-    f.environment_map = f.environment && scene.environment->width > 0;
+}
+
+void add_media(Features& f, const MediaTables& media) {
     f.media = !media.media.empty();
     f.media_scatter = media.scatter;
     f.dielectrics = media.refract;
     f.matched_media = std::ranges::any_of(
         media.media, [](const DeviceMedium& medium) { return medium.ior == 0; });
     f.rough_dielectrics = media.refract_roughly;
-    f.far_geometry = geometry.is_far();
+}
+
+// Methods that differ in nothing here share their kernels, which are compiled once.
+void add_method(Features& f, const LightTables& lights, const Method& method) {
     // Without a light that is somewhere there is no angle to draw distances from.
     const bool somewhere = std::ranges::any_of(lights.lights, [](const DeviceLight& light) {
         return light.kind == LIGHT_TRIANGLE || light.kind == LIGHT_POINT;
     });
-    f.distances = !media.scatter ? Distances::exponential
+    f.distances = !f.media_scatter ? Distances::exponential
                   : method.distances >= Distances::equiangular && !somewhere ? Distances::truncated
                                                                              : method.distances;
-    // Methods that differ in nothing here share their kernels, which are compiled once.
-    f.phase_directions = method.phase_directions || !media.scatter;
+    f.phase_directions = method.phase_directions || !f.media_scatter;
     f.sample_lights = method.sample_lights && !lights.lights.empty();
     f.sample_lobes = method.sample_lobes && f.specular;
     f.weigh_both = method.weigh_both && f.sample_lights;
-    f.sobol = sobol;
+}
+
+bool branches(const Features& f, const Splits& splits) {
+    return splits.reflections > 1 ||
+           (f.media_scatter && (splits.directions > 1 || f.distances != Distances::exponential));
+}
+
+void add_traversal(Features& f, const PreparedScene& prepared, bool is_cpu) {
+    f.contacts = prepared.has_contacts;
+    f.lamp_contacts = prepared.at_lamps.surfaces;
+    f.lamps_on_lamps = prepared.at_lamps.lamps;
+    f.ray_packets = is_cpu && prepared.mesh.has_value();
+    if (f.ray_packets || (is_cpu && prepared.placed.bvh.nodes.size() >= stream_nodes))
+        f.rays_per_item = stream_rays;
+}
+
+}  // namespace
+
+Features features_of(
+    const Scene& scene, const PreparedScene& prepared, const FeatureSettings& settings) {
+    Features f;
+    add_geometry(f, prepared.geometry());
+    add_materials(f, scene, prepared.worn);
+    f.layers_conserve = f.has_layers && settings.layers_conserve;
+    f.textures = f.textures || f.lobe_textures || f.normal_maps;
+    f.texture_pages = prepared.textures.pages();
+    f.texture_page_words = prepared.textures.page_words;
+    f.area_lights = prepared.has_area_lights();
+    f.environment = scene.environment.has_value();
+    f.environment_map = f.environment && scene.environment->width > 0;
+    add_media(f, prepared.media);
+    add_method(f, prepared.lights, settings.method);
+    f.guide =
+        settings.method.guide && f.weigh_both && !f.transmission && prepared.guide.has_value();
+    f.split_levels = branches(f, settings.splits) ? settings.split_depth : 0;
+    f.far_camera = settings.far_camera;
+    f.sobol = settings.sobol;
+    add_traversal(f, prepared, settings.is_cpu);
     return f;
 }
 

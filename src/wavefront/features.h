@@ -1,10 +1,7 @@
 // What a scene and a method need of the chain; kernels/shared/features.h is the other side.
 #pragma once
 
-#include "prepare/light_tables.h"
-#include "prepare/media_tables.h"
-#include "prepare/normalise.h"
-#include "prepare/texture_tables.h"
+#include "prepare/prepared_scene.h"
 #include "scene/scene.h"
 #include "wavefront/method.h"
 
@@ -29,7 +26,8 @@ struct Features {
     uint32_t texture_pages = 0;
     uint64_t texture_page_words = 0;
     bool specular = false;
-    bool layers_conserve = false;  // of dielectrics with a specular layer
+    bool has_layers = false;       // dielectrics with a specular layer,
+    bool layers_conserve = false;  // which conserve energy
     bool transmission = false;
     bool smooth_walls = false;  // that light goes straight through
     bool area_lights = false;
@@ -41,21 +39,21 @@ struct Features {
     bool dielectrics = false;        // boundaries that refract
     bool matched_media = false;      // besides index-matched ones
     bool tinted_boundaries = false;  // of index-matched ones
-    bool contacts = false;        // something touches them or a lamp; the renderer's to find out,
-    bool lamp_contacts = false;   // a lamp,
-    bool lamps_on_lamps = false;  // and itself shines to the same side
-    bool far_geometry = false;    // triangles lie outside the unit cube
-    bool far_camera = false;      // rays start at the scene; the renderer's to find out
+    bool contacts = false;           // something touches them or a lamp,
+    bool lamp_contacts = false;      // a lamp,
+    bool lamps_on_lamps = false;     // and itself shines to the same side
+    bool far_geometry = false;       // triangles lie outside the unit cube
+    bool far_camera = false;         // rays start at the scene
     bool rough_dielectrics = false;  // by microfacets
     // Boundaries that transmit in part and are opaque else.
     bool partial_boundaries = false;
     Distances distances = Distances::exponential;
     bool phase_directions = true;
-    uint32_t split_levels = 0;  // vertices that branch; the renderer's to decide
+    uint32_t split_levels = 0;  // vertices that branch
     bool sample_lights = false;
     bool sample_lobes = false;
     bool weigh_both = false;
-    bool guide = false;  // the renderer's to decide
+    bool guide = false;
     bool sobol = true;
     uint32_t rays_per_item = 1;  // 1 or stream_rays
     bool ray_packets = false;    // of stream_rays, eight at a time against a small mesh
@@ -71,16 +69,18 @@ struct Features {
     std::string defines() const;
 };
 
-// Whether some triangle wears a material, by material.
-std::vector<bool> worn_materials(const Scene& scene, const NormalisedScene& geometry);
+// What decides besides the scene.
+struct FeatureSettings {
+    Method method;
+    Splits splits;
+    uint32_t split_depth = 1;
+    bool sobol = true;
+    bool layers_conserve = true;
+    bool far_camera = false;
+    bool is_cpu = true;  // the device
+};
 
 Features features_of(
-    const Scene& scene,
-    const NormalisedScene& geometry,
-    const LightTables& lights,
-    const MediaTables& media,
-    const TextureTables& textures,
-    const Method& method,
-    bool sobol);
+    const Scene& scene, const PreparedScene& prepared, const FeatureSettings& settings);
 
 }  // namespace wavepath

@@ -3,12 +3,10 @@
 #include "device/program.h"
 #include "host_memory.h"
 #include "prepare/camera_params.h"
-#include "prepare/contacts.h"
 #include "prepare/hidden_lights.h"
-#include "prepare/light_guide.h"
-#include "prepare/placement.h"
-#include "scene/camera.h"
+#include "prepare/prepared_scene.h"
 #include "wavefront/sample_plan.h"
+#include "wavefront/schedule.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,8 +15,6 @@
 namespace wavepath {
 
 namespace {
-
-constexpr std::size_t stream_nodes = 1024;
 
 class Stopwatch {
   public:
@@ -34,17 +30,17 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// Throws Error where nothing shines, or nothing that the method can find.
 void check_lights(
     const Scene& scene,
-    const NormalisedScene& geometry,
-    const LightTables& tables,
-    const MediaTables& media,
+    const PreparedScene& prepared,
     const Method& method,
-    RenderResult& result) {
-    const bool area =
-        std::ranges::any_of(tables.triangle_lights, [](uint32_t row) { return row != NO_LIGHT; });
+    std::vector<std::string>& warnings) {
+    const NormalisedScene& geometry = prepared.geometry();
+    const bool area = prepared.has_area_lights();
+    const bool emits = prepared.media.emit;
     const bool punctual = !geometry.lights.empty();
-    if (!area && !punctual && !scene.environment && !media.emit)
+    if (!area && !punctual && !scene.environment && !emits)
         throw Error(
             "{}: no light; add an emissive material, a KHR_lights_punctual light, --env or "
             "--env-radiance",
@@ -52,25 +48,50 @@ void check_lights(
     if (!punctual) return;
     if (method.sample_lights) {
         const std::string hidden = warning_of_hidden_lights(scene, geometry);
-        if (!hidden.empty()) result.warnings.push_back(hidden);
+        if (!hidden.empty()) warnings.push_back(hidden);
         return;
     }
-    if (!area && !scene.environment && !media.emit)
+    if (!area && !scene.environment && !emits)
         throw Error(
             "{}: --method {} cannot find punctual lights, and the scene has no other; use direct, "
             "direct-bsdf or mis",
             scene.name, method.name);
-    result.warnings.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "--method {} cannot find punctual lights: their light is missing", method.name));
 }
 
-RenderParams scene_params(
-    const Scene& scene,
-    const PlacedScene& placed,
-    const LightTables& tables,
-    const RenderSettings& settings) {
+void set_surroundings(RenderParams& params, const Scene& scene, const PreparedScene& prepared) {
+    params.light_count = static_cast<cl_uint>(prepared.lights.lights.size());
+    params.material_count = static_cast<cl_uint>(scene.materials.size());
+    params.environment_pmf = prepared.lights.environment_pmf;
+    params.environment_left = prepared.lights.environment_left;
+    if (scene.environment) {
+        params.environment_width = scene.environment->width;
+        params.environment_height = scene.environment->height;
+        params.environment_r = scene.environment->radiance[0];
+        params.environment_g = scene.environment->radiance[1];
+        params.environment_b = scene.environment->radiance[2];
+    }
+    if (prepared.guide) {
+        params.guide_x = static_cast<float>(prepared.guide->centre[0]);
+        params.guide_y = static_cast<float>(prepared.guide->centre[1]);
+        params.guide_z = static_cast<float>(prepared.guide->centre[2]);
+        params.guide_radius2 = static_cast<float>(prepared.guide->radius * prepared.guide->radius);
+    }
+}
+
+// All but the window's.
+RenderParams params_of(
+    const Scene& scene, PreparedScene& prepared, const RenderSettings& settings) {
     RenderParams params{};
-    set_camera(params, settings.camera, placed, settings.width, settings.height);
+    set_camera(params, settings.camera, prepared.placed, settings.width, settings.height);
+    params.camera_media = media_at_camera(scene, prepared.media, params);
+    if (params.camera_media != 0 && prepared.placed.free_distance > 0) {
+        // What it absorbs begins at the eye.
+        prepared.placed.free_distance = 0;
+        set_camera(params, settings.camera, prepared.placed, settings.width, settings.height);
+    }
+    set_surroundings(params, scene, prepared);
     params.seed = settings.seed;
     params.max_scatterings = settings.termination.kind == TerminationKind::depth
                                  ? settings.termination.depth
@@ -83,25 +104,7 @@ RenderParams scene_params(
     params.stops = settings.splits.stops;
     params.stop_directions = settings.splits.directions;
     params.split_depth = settings.split_depth;
-    params.light_count = static_cast<cl_uint>(tables.lights.size());
-    params.material_count = static_cast<cl_uint>(scene.materials.size());
-    params.environment_pmf = tables.environment_pmf;
-    params.environment_left = tables.environment_left;
-    if (scene.environment) {
-        params.environment_width = scene.environment->width;
-        params.environment_height = scene.environment->height;
-        params.environment_r = scene.environment->radiance[0];
-        params.environment_g = scene.environment->radiance[1];
-        params.environment_b = scene.environment->radiance[2];
-    }
     return params;
-}
-
-std::vector<bool> triangles_with_holes(const Scene& scene, const NormalisedScene& geometry) {
-    std::vector<bool> holes;
-    for (const uint32_t material : geometry.materials)
-        holes.push_back(scene.materials[material].alpha_mode != AlphaMode::opaque);
-    return holes;
 }
 
 void check_splits(const RenderSettings& settings, bool media_scatter) {
@@ -160,50 +163,84 @@ void warm_up(
     queues.load_compaction();
 }
 
-// Windows are cut to about a second, so that progress, Ctrl-C and limits are met in time; the
-// picture does not depend on it.
-class Schedule {
-  public:
-    Schedule(const RenderSettings& settings, uint32_t pool, uint64_t max_cells)
-        : pixels_(uint64_t{settings.width} * settings.height),
-          plan_(settings.samples, pixels_),
-          least_passes_(settings.samples > 0 ? (refills * pool + pixels_ - 1) / pixels_ : 1),
-          max_cells_(max_cells),
-          seconds_(settings.seconds) {}
-
-    const SamplePlan& plan() const { return plan_; }
-
-    // The next passes, to be rendered window by window.
-    std::vector<Window> next(const std::vector<FilmBand>& bands, double elapsed) {
-        const double wanted = seconds_ > 0 ? std::clamp(seconds_ - elapsed, 0.0, 1.0) : 1.0;
-        const double passes = rate_ > 0 ? wanted * rate_ : 1;
-        const uint64_t fit = std::clamp<uint64_t>(max_cells_ / pixels_, 1, SamplePlan::most_rows);
-        const std::vector<PlanRow> rows =
-            plan_.take(std::min(fit, std::max(least_passes_, static_cast<uint64_t>(passes))));
-        passes_ = rows.size();
-        std::vector<Window> windows;
-        windows.reserve(bands.size());
-        for (const FilmBand& band : bands) windows.push_back({band.first_pixel, band.pixels, rows});
-        return windows;
+// Renders window by window until the samples, the time or the error asked for are there.
+void take_samples(
+    const Device& device,
+    const RenderSettings& settings,
+    const RenderParams& params,
+    Schedule& schedule,
+    QueueManager& queues,
+    Film& film,
+    const std::function<void(const RenderProgress&)>& progress,
+    const std::function<bool()>& stop,
+    RenderResult& result) {
+    Stopwatch watch;
+    const SamplePlan& plan = schedule.plan();
+    const auto error_so_far = [&] {
+        return relative_error(device, film, result.samples, result.batches);
+    };
+    while (!plan.done()) {
+        const std::vector<Window> windows = schedule.next(film.bands, result.times.render);
+        // Once one window is in the film, the passes have to be finished everywhere.
+        const bool whole = queues.render(windows.front(), params, film, stop);
+        for (std::size_t i = 1; whole && i < windows.size(); ++i)
+            queues.render(windows[i], params, film);
+        const double seconds = watch.lap();
+        schedule.took(seconds);
+        result.times.render += seconds;
+        if (whole) {
+            result.samples = plan.samples_taken();
+            result.batches = plan.batches_closed();
+        }
+        result.interrupted = !whole || (!plan.done() && stop());
+        if (progress && whole) {
+            const RayCounts rays = queues.ray_counts();
+            progress(
+                {result.samples, settings.samples, result.times.render,
+                 rays.closest + rays.connections, error_so_far});
+        }
+        const bool timed_out = settings.seconds > 0 && result.times.render >= settings.seconds;
+        const bool on_target = settings.target_error > 0 && error_so_far() < settings.target_error;
+        if (result.interrupted || timed_out || on_target) break;
     }
+}
 
-    void took(double seconds) {
-        if (seconds > 0) rate_ = static_cast<double>(passes_) / seconds;
-    }
+// What the samples themselves show to be wrong. `gains_energy`: some layer may.
+void warn_of_samples(
+    RenderResult& result, const std::string& scene, uint64_t pixels, bool gains_energy) {
+    const double samples = static_cast<double>(result.samples) * static_cast<double>(pixels);
+    if (auto warning = outlier_warning(result.outlier, samples, gains_energy))
+        result.warnings.push_back(*std::move(warning));
+    if (result.film.nonfinite.of_media)
+        result.warnings.push_back(fmt::format(
+            "{}: samples are not finite where more than 4 media lie around one another, "
+            "or meet in a plane; take one of them away if any do",
+            scene));
+    else if (result.film.nonfinite.samples > 0 && gains_energy)
+        result.warnings.emplace_back(
+            "samples are not finite: by --layering specification dielectrics gain energy, without "
+            "bound in closed scenes; use --layering conserving");
+    else if (result.film.nonfinite.samples > 0)
+        result.warnings.push_back(fmt::format(
+            "{}: samples are not finite, and why is not known; dim lights whose radiance may "
+            "exceed 32 bits, else report the scene",
+            scene));
+    else if (result.batches > 1 && !std::isfinite(result.film.relative_error))
+        result.warnings.emplace_back(
+            "the variance layer is not finite: squares of the radiance exceed 32 bits; dim the "
+            "lights");
+}
 
-  private:
-    // Units a slot at the least, for the pool runs empty at the end of a window; an open-ended
-    // render of a small picture would overshoot with them.
-    static constexpr uint64_t refills = 4;
-
-    uint64_t pixels_;
-    SamplePlan plan_;
-    uint64_t least_passes_;
-    uint64_t max_cells_;
-    double seconds_;
-    double rate_ = 0;  // passes/s
-    uint64_t passes_ = 0;
-};
+void describe(RenderResult& result, const PreparedScene& prepared, const SceneBuffers& buffers) {
+    result.triangles = prepared.geometry().triangle_count();
+    result.dropped_triangles = prepared.geometry().dropped;
+    result.lights = prepared.lights.lights.size();
+    result.bvh_nodes = prepared.placed.bvh.nodes.size();
+    result.bvh_blocks = prepared.placed.bvh.blocks.size();
+    result.scene_bytes = buffers.bytes();
+    result.texture_bytes = buffers.textures.bytes();
+    result.texture_pages = prepared.textures.pages();
+}
 
 }  // namespace
 
@@ -233,75 +270,34 @@ RenderResult render(
     const std::function<bool()>& stop) {
     RenderResult result;
     Stopwatch watch;
-    PlacedScene placed = place(scene, settings.camera, settings.width, settings.height);
-    const NormalisedScene& geometry = placed.geometry;
-    Bvh& bvh = placed.bvh;
-    result.times.bvh_build = bvh.build_seconds;
-    result.times.normalise = watch.lap() - bvh.build_seconds;
-    LightTables tables = build_light_tables(
-        scene, geometry, settings.method.light_choice, !settings.method.weigh_both);
-    const MediaTables media = build_media_tables(scene, geometry);
-    result.warnings = placed.warnings;
-    result.warnings.insert(result.warnings.end(), media.warnings.begin(), media.warnings.end());
-    check_lights(scene, geometry, tables, media, settings.method, result);
-    check_splits(settings, media.scatter);
-    const TextureTables textures =
-        build_texture_tables(scene, worn_materials(scene, geometry), device.info.max_allocation);
-    Features features =
-        features_of(scene, geometry, tables, media, textures, settings.method, settings.sobol);
-    const bool gains_energy = features.layers_conserve && !settings.layers_conserve;
-    features.layers_conserve = features.layers_conserve && settings.layers_conserve;
-    const bool branches = settings.splits.reflections > 1 ||
-                          (media.scatter && (settings.splits.directions > 1 ||
-                                             features.distances != Distances::exponential));
-    std::optional<LightGuide> guide;
-    if (settings.method.guide && features.weigh_both && !features.transmission)
-        guide = guide_to_lights(scene, geometry, tables, media);
-    features.guide = guide.has_value();
-    result.guided = features.guide;
-    features.split_levels = branches ? settings.split_depth : 0;
-    result.times.normalise += watch.lap();
-    if (features.alpha) mark_holes(bvh, triangles_with_holes(scene, geometry));
-    const LampContacts at_lamps = mark_lamp_contacts(scene, geometry, bvh, tables.triangle_lights);
-    features.lamp_contacts = at_lamps.surfaces;
-    features.lamps_on_lamps = at_lamps.lamps;
-    features.contacts = at_lamps.surfaces || ((features.dielectrics || features.transmission) &&
-                                              has_contacts(scene, geometry, bvh));
-    result.times.bvh_build += watch.lap();
-    // On a CPU a tree that outgrows the caches is traversed by many rays in turn, so that they wait
-    // for memory together, and a small mesh is traced without its tree, in packets.
-    const std::optional<SmallMesh> mesh =
-        device.info.is_cpu && !features.alpha ? small_mesh(geometry.positions) : std::nullopt;
-    features.ray_packets = mesh.has_value();
-    if (features.ray_packets || (device.info.is_cpu && bvh.nodes.size() >= stream_nodes))
-        features.rays_per_item = stream_rays;
-    const SceneBuffers buffers(device, scene, geometry, bvh, mesh, tables, media, textures);
-    result.times.upload = watch.lap();
-
-    RenderParams params = scene_params(scene, placed, tables, settings);
-    if (guide) {
-        params.guide_x = static_cast<float>(guide->centre[0]);
-        params.guide_y = static_cast<float>(guide->centre[1]);
-        params.guide_z = static_cast<float>(guide->centre[2]);
-        params.guide_radius2 = static_cast<float>(guide->radius * guide->radius);
-    }
-    params.camera_media = media_at_camera(scene, media, params);
-    if (params.camera_media != 0 && placed.free_distance > 0) {
-        // what it absorbs begins at the eye
-        placed.free_distance = 0;
-        set_camera(params, settings.camera, placed, settings.width, settings.height);
-    }
-    features.far_camera = is_far_camera(params);
+    PreparedScene prepared = prepare(
+        scene, settings.camera,
+        {settings.width, settings.height, settings.method.light_choice, !settings.method.weigh_both,
+         device.info.max_allocation});
+    result.times.normalise = prepared.normalise_seconds;
+    result.times.bvh_build = prepared.bvh_seconds;
+    result.warnings = prepared.placed.warnings;
+    check_lights(scene, prepared, settings.method, result.warnings);
+    check_splits(settings, prepared.media.scatter);
+    const RenderParams params = params_of(scene, prepared, settings);
     if (!tells_pixels_apart(params))
         result.warnings.push_back(fmt::format(
             "{}: single precision does not tell the pixels of camera \"{}\" apart; bring it closer "
             "or widen its view",
             scene.name, settings.camera.name));
+    const Features features = features_of(
+        scene, prepared,
+        {settings.method, settings.splits, settings.split_depth, settings.sobol,
+         settings.layers_conserve, is_far_camera(params), device.info.is_cpu});
+    watch.lap();
+    const SceneBuffers buffers(device, scene, prepared);
+    result.times.upload = watch.lap();
+
     const std::string source =
         assemble_source(features.defines(), QueueManager::kernel_files(features));
     const cl::Program program = build_program(device, source, &result.program);
     Profile profile;
-    // no more slots and cells than there are units of work
+    // No more slots and cells than there are units of work.
     const uint64_t pixels = uint64_t{settings.width} * settings.height;
     const uint64_t units = SamplePlan(settings.samples, pixels).most_passes() * pixels;
     const uint32_t wanted = settings.pool > 0 ? settings.pool : device.info.default_pool;
@@ -315,77 +311,23 @@ RenderResult render(
     check_memory(device, buffers.bytes() + queues.bytes(), settings);
     Film film(device, settings.width, settings.height, max_cells);
     result.film_bytes = film.bytes();
-    // last, so that no buffer takes the place of one it freed: oclgrind mixes them up
+    // Last, so that no buffer takes the place of one it freed: oclgrind mixes them up.
     warm_up(device, program, source, features, buffers, settings, params);
     result.times.program_build = watch.lap();
 
-    Schedule schedule(settings, pool, max_cells);
-    const SamplePlan& plan = schedule.plan();
-    const auto error_so_far = [&] {
-        return relative_error(device, film, result.samples, result.batches);
-    };
-    while (!plan.done()) {
-        const std::vector<Window> windows = schedule.next(film.bands, result.times.render);
-        // Once one window is in the film, the passes have to be finished everywhere.
-        const bool whole = queues.render(windows.front(), params, film, stop);
-        for (std::size_t i = 1; whole && i < windows.size(); ++i)
-            queues.render(windows[i], params, film);
-        const double seconds = watch.lap();
-        schedule.took(seconds);
-        result.times.render += seconds;
-        if (whole) {
-            result.samples = plan.samples_taken();
-            result.batches = plan.batches_closed();
-        }
-        result.interrupted = !whole || (!plan.done() && stop());
-        if (progress && whole) {
-            const RayCounts rays = queues.ray_counts();
-            progress(
-                {result.samples, settings.samples, result.times.render,
-                 rays.closest + rays.connections, error_so_far});
-        }
-        const bool timed_out = settings.seconds > 0 && result.times.render >= settings.seconds;
-        const bool on_target = settings.target_error > 0 && error_so_far() < settings.target_error;
-        if (result.interrupted || timed_out || on_target) break;
-    }
-
+    Schedule schedule(pixels, settings.samples, settings.seconds, pool, max_cells);
+    take_samples(device, settings, params, schedule, queues, film, progress, stop, result);
     result.film = develop(device, std::move(film), result.samples, result.batches);
     result.outlier = largest_outlier(result.film.image);
-    const double samples = static_cast<double>(result.samples) * static_cast<double>(pixels);
-    if (auto warning = outlier_warning(result.outlier, samples, gains_energy))
-        result.warnings.push_back(*std::move(warning));
-    if (result.film.nonfinite.of_media)
-        result.warnings.push_back(fmt::format(
-            "{}: samples are not finite where more than 4 media lie around one another, "
-            "or meet in a plane; take one of them away if any do",
-            scene.name));
-    else if (result.film.nonfinite.samples > 0 && gains_energy)
-        result.warnings.emplace_back(
-            "samples are not finite: by --layering specification dielectrics gain energy, without "
-            "bound in closed scenes; use --layering conserving");
-    else if (result.film.nonfinite.samples > 0)
-        result.warnings.push_back(fmt::format(
-            "{}: samples are not finite, and why is not known; dim lights whose radiance may "
-            "exceed 32 bits, else report the scene",
-            scene.name));
-    else if (result.batches > 1 && !std::isfinite(result.film.relative_error))
-        result.warnings.emplace_back(
-            "the variance layer is not finite: squares of the radiance exceed 32 bits; dim the "
-            "lights");
+    warn_of_samples(result, scene.name, pixels, features.has_layers && !features.layers_conserve);
     result.profile = profile.rows();
     result.device_clock = profile.device_clock();
     result.rays = queues.ray_counts();
     result.cut_paths = queues.cut_paths();
     result.iterations = queues.iterations();
-    result.triangles = geometry.triangle_count();
-    result.dropped_triangles = geometry.dropped;
-    result.lights = tables.lights.size();
-    result.bvh_nodes = bvh.nodes.size();
-    result.bvh_blocks = bvh.blocks.size();
-    result.scene_bytes = buffers.bytes();
-    result.texture_bytes = buffers.textures.bytes();
-    result.texture_pages = textures.pages();
     result.pool_bytes = queues.bytes();
+    result.guided = features.guide;
+    describe(result, prepared, buffers);
     return result;
 }
 

@@ -56,27 +56,20 @@ std::size_t DeviceTextures::bytes() const {
     return bytes;
 }
 
-SceneBuffers::SceneBuffers(
-    const Device& device,
-    const Scene& scene,
-    const NormalisedScene& geometry,
-    const Bvh& bvh,
-    const std::optional<SmallMesh>& small_mesh,
-    const LightTables& tables,
-    const MediaTables& media_tables,
-    const TextureTables& texture_tables)
-    : nodes(device, bvh.nodes, "BVH nodes"),
-      blocks(device, bvh.blocks, "BVH leaves"),
+SceneBuffers::SceneBuffers(const Device& device, const Scene& scene, const PreparedScene& prepared)
+    : nodes(device, prepared.placed.bvh.nodes, "BVH nodes"),
+      blocks(device, prepared.placed.bvh.blocks, "BVH leaves"),
       mesh(
           device,
-          small_mesh ? std::vector<SmallMesh>{*small_mesh} : std::vector<SmallMesh>{},
+          prepared.mesh ? std::vector<SmallMesh>{*prepared.mesh} : std::vector<SmallMesh>{},
           "small mesh"),
-      triangles(device, triangle_records(geometry, tables), "triangles"),
-      materials(device, device_materials(scene, media_tables), "materials"),
-      lights(device, tables.lights, "lights"),
-      media(device, media_tables.media, "media"),
-      environment(device, tables.environment, "environment map"),
-      textures{DeviceArray<DeviceTexture>(device, texture_tables.rows, "textures"), {}} {
+      triangles(device, triangle_records(prepared.geometry(), prepared.lights), "triangles"),
+      materials(device, device_materials(scene, prepared.media), "materials"),
+      lights(device, prepared.lights.lights, "lights"),
+      media(device, prepared.media.media, "media"),
+      environment(device, prepared.lights.environment, "environment map"),
+      textures{DeviceArray<DeviceTexture>(device, prepared.textures.rows, "textures"), {}} {
+    const TextureTables& texture_tables = prepared.textures;
     // Pages are mapped whole: oclgrind takes what is written from an offset on for uninitialised.
     std::array<cl_uint*, TEXTURE_MOST_PAGES> mapped{};
     for (std::size_t page = 0; page < mapped.size(); ++page) {

@@ -2,12 +2,7 @@
 #pragma once
 
 #include "device/kernel_buffers.h"
-#include "prepare/bvh_builder.h"
-#include "prepare/light_tables.h"
-#include "prepare/media_tables.h"
-#include "prepare/normalise.h"
-#include "prepare/small_mesh.h"
-#include "prepare/texture_tables.h"
+#include "prepare/prepared_scene.h"
 #include "shared/scene.h"
 
 #include <optional>
@@ -24,15 +19,7 @@ struct DeviceTextures {
 
 struct SceneBuffers {
     SceneBuffers() = default;  // holds nothing
-    SceneBuffers(
-        const Device& device,
-        const Scene& scene,
-        const NormalisedScene& geometry,
-        const Bvh& bvh,
-        const std::optional<SmallMesh>& small_mesh,
-        const LightTables& tables,
-        const MediaTables& media_tables,
-        const TextureTables& texture_tables);
+    SceneBuffers(const Device& device, const Scene& scene, const PreparedScene& prepared);
 
     DeviceArray<BvhNode> nodes;
     DeviceArray<TriangleBlock> blocks;

@@ -7,13 +7,8 @@
 // ./gltf_fuzz_case and ends the program. Build it with the preset `asan`.
 #include "error.h"
 #include "gltf/gltf_loader.h"
-#include "prepare/bvh_builder.h"
-#include "prepare/light_guide.h"
-#include "prepare/light_tables.h"
-#include "prepare/media_tables.h"
-#include "prepare/normalise.h"
-#include "prepare/texture_tables.h"
-#include "wavefront/features.h"
+#include "prepare/prepared_scene.h"
+#include "scene/camera.h"
 
 #include <fmt/format.h>
 #include <sys/time.h>
@@ -248,30 +243,27 @@ struct Tally {
     std::size_t refused = 0;
 };
 
-// What rendering builds before it needs a device.
-void build_tables(const Scene& scene, const NormalisedScene& geometry) {
-    const LightTables lights = build_light_tables(scene, geometry, LightChoice::power, true);
-    for (const DeviceLight& light : lights.lights)
+// What rendering builds before it needs a device. Throws what is a finding.
+void check_prepared(const Scene& scene) {
+    Preparation preparation;
+    preparation.lights_alone = true;
+    preparation.page_bytes = 1U << 30U;
+    const PreparedScene prepared = prepare(scene, choose_camera(scene, ""), preparation);
+    const NormalisedScene& geometry = prepared.geometry();
+    for (const float x : geometry.positions)
+        if (!geometry.is_far() && !(std::abs(x) <= 0.501F))
+            throw std::logic_error("a corner is out of bounds");
+    for (const float x : geometry.normals)
+        if (!std::isfinite(x)) throw std::logic_error("a normal is not finite");
+    for (const DeviceLight& light : prepared.lights.lights)
         if (!(light.pmf >= 0)) throw std::logic_error("the chance of a light is not a number");
-    const MediaTables media = build_media_tables(scene, geometry);
-    constexpr uint64_t page = 1U << 30U;
-    build_texture_tables(scene, worn_materials(scene, geometry), page);
-    guide_to_lights(scene, geometry, lights, media);
-    build_bvh(geometry.positions);
 }
 
 // Throws what is a finding.
 void load(const fs::path& path, Tally& tally) {
     try {
         const Scene scene = load_gltf(path);
-        if (scene.triangle_count() <= most_triangles) {
-            const NormalisedScene geometry = normalise(scene);
-            for (const float x : geometry.positions)
-                if (!(std::abs(x) <= 0.501F)) throw std::logic_error("a corner is out of bounds");
-            for (const float x : geometry.normals)
-                if (!std::isfinite(x)) throw std::logic_error("a normal is not finite");
-            build_tables(scene, geometry);
-        }
+        if (scene.triangle_count() <= most_triangles) check_prepared(scene);
         ++tally.loaded;
     } catch (const Error& error) {
         const std::string_view message = error.what();
