@@ -2,6 +2,7 @@
 // record of the vertex on the slot's stack (shared/path.h, BranchPlane).
 #pragma once
 
+#include "geometry/path_state.cl"
 #include "sampling/rng.cl"
 #include "sampling/vector.cl"
 #include "shared/features.h"
@@ -94,7 +95,7 @@ INLINE Child next_child(
     if (!HAS_SPLITS) return child;
     child.branch = PLANE(ids, ID_BRANCH)[slot];
     const uint stacked = PLANE(ids, ID_STACK)[slot];
-    const int resumed = PLANE(hits, HIT_T)[slot] == T_RESUMED;
+    const int resumed = is_resumed(hits, stride, slot);
     const uint level = resumed ? stacked - 1 : vertex_level(stacked);
     PLANE(hits, HIT_T)[slot] = 0.0f;
     if (level >= BRANCH_LEVELS * split_depth) return child;

@@ -25,14 +25,56 @@ enum HitPlane {
     HIT_PLANES
 };
 #define HIT_WORTH HIT_U  // with HAS_GUIDE, once the hit is shaded: guide_worth of the new direction
-#define HIT_MISS (-1)    // it left the scene
-#define HIT_ENDED (-2)   // the path is over: absorbed, or cut
-#define HIT_IDLE (-3)    // the slot has no work left
-// with HAS_PASSAGES:
-#define HIT_MEDIUM (-4)  // it stopped in a medium before the surface; HIT_T and SURFACE_X say where
-#define HIT_BOUNDARY (-5)    // it passes a boundary or a wall and goes on as the same ray
-#define HIT_DIELECTRIC (-6)  // it leaves a dielectric boundary as a new ray
-#define HIT_LEAVING (-7)     // it leaves its last medium at HIT_T and meets nothing behind
+#define HIT_MISS (-1)
+#define HIT_ENDED (-2)
+#define HIT_IDLE (-3)
+#define HIT_MEDIUM (-4)  // this and what follows only with HAS_PASSAGES
+#define HIT_BOUNDARY (-5)
+#define HIT_DIELECTRIC (-6)
+#define HIT_LEAVING (-7)
+
+// What HIT_PRIMITIVE says, for which geometry/path_state.cl has words:
+//
+// 0 and more      The path is at this triangle.
+//   set by        intersect, find_contacts; resume_branch; sample_indirect leaves it so
+//   seen by       all stages that shade, until one of them sets another code
+//   valid         HIT_T, HIT_U, HIT_V; surfaces from interact on
+// HIT_MISS        It left the scene.
+//   set by        intersect; sample_distance, in place of HIT_LEAVING
+//   seen by       shade_miss, first_hit; roulette_compact ends it
+//   valid         its ray
+// HIT_ENDED       It is over: absorbed, or cut.
+//   set by        pass_boundary, refract_boundary, sample_indirect, scatter_medium,
+//                 roulette_compact; assign_units
+//   seen by       resume_branch, accumulate; generate_rays starts the next
+//   valid         its radiance
+// HIT_IDLE        There is no path: the slot has no work left.
+//   set by        generate_rays, move_paths
+//   seen by       scatter_queue, which fills the slot
+// HIT_MEDIUM      It stopped in a medium before the surface.
+//   set by        sample_distance; resume_branch; scatter_medium leaves it so
+//   seen by       direct_light, scatter_medium
+//   valid         HIT_T, SURFACE_X
+// HIT_BOUNDARY    It passes a boundary or a wall and goes on as the same ray.
+//   set by        pass_boundary, pass_walls
+//   seen by       no stage that shades; intersect goes on behind it
+//   valid         MEDIUM_T, MEDIUM_PRIMITIVE
+// HIT_DIELECTRIC  It leaves a dielectric boundary as a new ray.
+//   set by        refract_boundary
+//   seen by       no stage that shades; intersect traces it
+//   valid         its new ray
+// HIT_LEAVING     It leaves its last medium at HIT_T and meets nothing behind.
+//   set by        intersect
+//   seen by       sample_distance, which sets HIT_MISS or HIT_MEDIUM
+//   valid         HIT_T
+//
+// And what HIT_T says, with HAS_SPLITS:
+//
+// 0 and more      The triangle was met at this distance.
+// T_RESUMED       The path is back at a branch vertex, which was shaded before. Set by
+//                 resume_branch; what shades skips it; next_child (sampling/branch.cl) sets 0.
+// others below 0  It is back on a segment of this length that it went through before, to stop on
+//                 it. Set by resume_branch, seen by sample_distance.
 
 // surfaces: what was hit, where HIT_PRIMITIVE >= 0
 enum SurfacePlane {
@@ -185,8 +227,6 @@ enum BranchPlane {
     BRANCH_PLANES = BRANCH_MEDIA + MEDIUM_PLANES
 };
 #define BRANCH_PLANES_SURFACE BRANCH_SCATTERING
-// In HIT_T: the hit is that of a branch vertex, to be left in another direction; it has been shaded
-// before. Other distances below 0: a segment that was walked before, to be stopped on.
 #define T_RESUMED (-INFINITY)
 
 #endif

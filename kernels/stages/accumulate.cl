@@ -6,6 +6,7 @@
 //
 // One work-item a slot. A cell belongs to one unit, so it has one writer.
 
+#include "geometry/path_state.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
 #include "shared/path.h"
@@ -28,7 +29,7 @@ kernel void accumulate(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
+    if (hit_of(hits, stride, slot) != HIT_ENDED) return;
     // A throughput that is no number spoils the sample, whether or not it met a light.
     const Vec3 radiance = madd3(
         load3(PLANE(radiances, RADIANCE_R), stride, slot),

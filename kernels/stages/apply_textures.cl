@@ -6,6 +6,7 @@
 //
 // One work-item a slot.
 
+#include "geometry/path_state.cl"
 #include "geometry/textured_surface.cl"
 #include "shared/params.h"
 
@@ -21,8 +22,8 @@ kernel void apply_textures(
     const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    if (primitive < 0) return;
+    const int primitive = hit_of(hits, stride, slot);
+    if (!at_surface(primitive)) return;
     const float u = PLANE(hits, HIT_U)[slot];
     const float v = PLANE(hits, HIT_V)[slot];
     const int index = as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);

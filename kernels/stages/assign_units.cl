@@ -6,6 +6,7 @@
 //
 // One work-item a slot in use.
 
+#include "geometry/path_state.cl"
 #include "sampling/sobol.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
@@ -22,7 +23,7 @@ kernel void assign_units(
     const size_t stride = params.stride;
     const uint slot = (uint)get_global_id(0);
     if (slot >= slots) return;
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(HIT_ENDED);
+    set_hit(hits, stride, slot, HIT_ENDED);
     const uint pass = slot / params.window_pixels;
     const uint pixel = params.first_pixel + slot % params.window_pixels;
     PLANE(ids, ID_CELL)[slot] = slot;

@@ -9,6 +9,7 @@
 // One work-item a slot. `find_contacts` has decided the same before, by the same random number.
 
 #include "geometry/interaction.cl"
+#include "geometry/path_state.cl"
 #include "media/boundary_share.cl"
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
@@ -25,8 +26,8 @@ kernel void decide_boundary(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    if (primitive < 0) return;
+    const int primitive = hit_of(hits, stride, slot);
+    if (!at_surface(primitive)) return;
     const int row = as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     if (materials[row].boundary == BOUNDARY_OPAQUE) return;
     const Surface surface = load_surface(materials, surfaces, stride, slot);

@@ -10,6 +10,7 @@
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "geometry/path_state.cl"
 #include "geometry/surface_texture.cl"
 #include "lights/area_light.cl"
 #include "lights/environment.cl"
@@ -40,11 +41,11 @@ kernel void direct_light(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    const int primitive = hit_of(hits, stride, slot);
     PLANE(shadows, SHADOW_T_MAX)[slot] = 0.0f;
     const int in_medium = ((HAS_MEDIA & MEDIA_SCATTER) != 0) & (primitive == HIT_MEDIUM);
-    if (primitive < 0 && !in_medium) return;
-    if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
+    if (!at_surface(primitive) && !in_medium) return;
+    if (is_resumed(hits, stride, slot)) return;
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
     const uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
     // a dielectric boundary shows lights on either side if it is rough, and none if it is smooth

@@ -10,6 +10,7 @@
 //
 // One work-item a slot. Thin walls there are not seen.
 
+#include "geometry/path_state.cl"
 #include "geometry/shown_face.cl"
 #include "media/boundary.cl"
 #include "sampling/dimensions.cl"
@@ -31,7 +32,7 @@ kernel void find_contacts(
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     Hit shown;
-    shown.primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    shown.primitive = hit_of(hits, stride, slot);
     shown.t = PLANE(hits, HIT_T)[slot];
     shown.u = PLANE(hits, HIT_U)[slot];
     shown.v = PLANE(hits, HIT_V)[slot];

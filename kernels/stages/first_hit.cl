@@ -7,6 +7,7 @@
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "geometry/path_state.cl"
 #include "shared/params.h"
 
 kernel void first_hit(
@@ -21,10 +22,10 @@ kernel void first_hit(
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
     if (PLANE(ids, ID_SCATTERING)[slot] != 0) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    const int primitive = hit_of(hits, stride, slot);
     if (primitive == HIT_IDLE) return;
-    if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f) return;  // a child after the first
-    const int hit = primitive >= 0;
+    if (is_traced(hits, stride, slot)) return;  // a child after the first
+    const int hit = at_surface(primitive);
     const float kept =
         PLANE(ids, ID_SAMPLE)[slot] == 0 ? 0.0f : 1.0f;  // a unit's first sample starts its sums
     const Vec3 zero = vec3(0.0f, 0.0f, 0.0f);

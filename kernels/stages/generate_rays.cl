@@ -7,6 +7,7 @@
 //
 // One work-item a slot.
 
+#include "geometry/path_state.cl"
 #include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
@@ -27,7 +28,7 @@ kernel void generate_rays(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
+    if (hit_of(hits, stride, slot) != HIT_ENDED) return;
 
     // the unit and the sample
     const uint old_cell = PLANE(ids, ID_CELL)[slot];
@@ -37,7 +38,7 @@ kernel void generate_rays(
     const int same_unit = old_left > 0;
     const uint cell = same_unit ? old_cell : old_cell + params.pool;
     if (cell >= params.cells) {
-        PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(HIT_IDLE);
+        set_hit(hits, stride, slot, HIT_IDLE);
         return;
     }
     uint pixel = old_pixel;

@@ -7,6 +7,7 @@
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "geometry/path_state.cl"
 #include "shared/params.h"
 
 kernel void interact(
@@ -20,8 +21,8 @@ kernel void interact(
     const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    if (primitive < 0) return;
+    const int primitive = hit_of(hits, stride, slot);
+    if (!at_surface(primitive)) return;
     const Interaction x = find_interaction(
         triangles, materials, primitive, PLANE(hits, HIT_U)[slot], PLANE(hits, HIT_V)[slot],
         load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));

@@ -8,6 +8,7 @@
 //
 // One work-item for RAYS_PER_ITEM slots.
 
+#include "geometry/path_state.cl"
 #include "geometry/ray_packet.cl"
 #include "geometry/ray_stream.cl"
 #include "media/medium_stack.cl"
@@ -36,8 +37,8 @@ INLINE uint clear_medium(
 }
 
 INLINE int has_ray(global const float* hits, const size_t stride, const size_t slot) {
-    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE) return 0;
-    return !(HAS_SPLITS && PLANE(hits, HIT_T)[slot] < 0.0f);
+    if (hit_of(hits, stride, slot) == HIT_IDLE) return 0;
+    return !is_traced(hits, stride, slot);
 }
 
 // What lies behind a hit: `next`, or what a ray finds where that is not known, 0.

@@ -9,6 +9,7 @@
 //
 // One work-item a slot.
 
+#include "geometry/path_state.cl"
 #include "media/medium_stack.cl"
 #include "shared/params.h"
 
@@ -37,8 +38,7 @@ __attribute__((noinline)) void pass(
     go_on_behind(
         path_media, stride, slot, stack, crossed, PLANE(hits, HIT_T)[slot], primitive,
         touching_distance(triangle, load3(PLANE(surfaces, SURFACE_X), stride, slot), direction));
-    PLANE(hits, HIT_PRIMITIVE)
-    [slot] = as_float(max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
+    set_hit(hits, stride, slot, max_component3(throughput) <= 0.0f ? HIT_ENDED : HIT_BOUNDARY);
 }
 
 kernel void pass_boundary(
@@ -54,8 +54,8 @@ kernel void pass_boundary(
     const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    if (primitive < 0) return;
+    const int primitive = hit_of(hits, stride, slot);
+    if (!at_surface(primitive)) return;
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     if (material->boundary < BOUNDARY_INDEX_MATCHED) {

@@ -10,6 +10,7 @@
 //
 // One work-item a slot.
 
+#include "geometry/path_state.cl"
 #include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
 #include "shared/params.h"
@@ -28,8 +29,8 @@ kernel void pass_walls(
     const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    if (primitive < 0) return;
+    const int primitive = hit_of(hits, stride, slot);
+    if (!at_surface(primitive)) return;
     // a branch vertex that is resumed has not been passed
     const float t = PLANE(hits, HIT_T)[slot];
     if (HAS_SPLITS && t == T_RESUMED) return;
@@ -69,5 +70,5 @@ kernel void pass_walls(
             triangles + (size_t)TRIANGLE_FLOATS * primitive,
             load3(PLANE(surfaces, SURFACE_X), stride, slot), direction));
     if (kept) PLANE(path_media, MEDIUM_BEFORE)[slot] = as_float(before);
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(HIT_BOUNDARY);
+    set_hit(hits, stride, slot, HIT_BOUNDARY);
 }

@@ -8,6 +8,7 @@
 //
 // One work-item a slot.
 
+#include "geometry/path_state.cl"
 #include "materials/dielectric.cl"
 #include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
@@ -29,8 +30,8 @@ kernel void refract_boundary(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    if (primitive < 0) return;
+    const int primitive = hit_of(hits, stride, slot);
+    if (!at_surface(primitive)) return;
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     if (material->boundary != BOUNDARY_DIELECTRIC) return;
@@ -81,7 +82,7 @@ kernel void refract_boundary(
     goes_on *= dot3(side, wi) <= 0.0f ? 0.0f : 1.0f;
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN
     const int continues = goes_on > 0.0f;
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? HIT_DIELECTRIC : HIT_ENDED);
+    set_hit(hits, stride, slot, continues ? HIT_DIELECTRIC : HIT_ENDED);
     const Vec3 position = load3(PLANE(surfaces, SURFACE_X), stride, slot);
     store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, leave(position, side));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);

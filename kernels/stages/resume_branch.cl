@@ -8,6 +8,7 @@
 //
 // One work-item a slot.
 
+#include "geometry/path_state.cl"
 #include "sampling/branch.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
@@ -27,7 +28,7 @@ kernel void resume_branch(
     const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_ENDED) return;
+    if (hit_of(hits, stride, slot) != HIT_ENDED) return;
     uint level = PLANE(ids, ID_STACK)[slot];
     while (level > 0 &&
            as_uint(PLANE(branch_at(branches, stride, level - 1), BRANCH_LEFT)[slot]) == 0)

@@ -7,6 +7,7 @@
 //
 // One work-item a slot. scan_queue counts the fates.
 
+#include "geometry/path_state.cl"
 #include "media/medium_stack.cl"
 #include "sampling/dimensions.cl"
 #include "sampling/vector.cl"
@@ -43,7 +44,7 @@ kernel void roulette_compact(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    const int primitive = hit_of(hits, stride, slot);
     if (primitive == HIT_IDLE) {
         fates[slot] = 0;
         return;
@@ -88,7 +89,7 @@ kernel void roulette_compact(
     store3(
         PLANE(throughputs, THROUGHPUT_R), stride, slot,
         scale3(throughput, ends ? 1.0f : 1.0f / survival));
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(ends ? HIT_ENDED : primitive);
+    set_hit(hits, stride, slot, ends ? HIT_ENDED : primitive);
     PLANE(ids, ID_SCATTERING)[slot] = scattering - (dies ? 1 : 0);
 
     const int has_next =

@@ -9,6 +9,7 @@
 // One work-item a slot. A ray that misses everything has left all media, whatever its stack says:
 // the mesh was not closed.
 
+#include "geometry/path_state.cl"
 #include "lights/light_point.cl"
 #include "media/homogeneous.cl"
 #include "media/medium_stack.cl"
@@ -39,14 +40,14 @@ kernel void sample_distance(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+    const int primitive = hit_of(hits, stride, slot);
     const uint innermost = innermost_medium(as_uint(PLANE(path_media, MEDIUM_STACK)[slot]));
     const Vec3 origin = load3(PLANE(rays, RAY_ORIGIN_X), stride, slot);
     if (HAS_SPLITS && primitive == HIT_MEDIUM) {
         store3(PLANE(surfaces, SURFACE_X), stride, slot, origin);  // a stop that is resumed
         PLANE(surfaces, SURFACE_MATERIAL)[slot] = as_float(0);
     }
-    if (primitive < 0 && primitive != HIT_LEAVING) return;
+    if (!at_surface(primitive) && primitive != HIT_LEAVING) return;
     if (innermost == 0) return;
     const float hit_t = PLANE(hits, HIT_T)[slot];
     if (HAS_SPLITS && hit_t == T_RESUMED) return;
@@ -140,7 +141,7 @@ kernel void sample_distance(
     const float nearest = start > 0.0f ? margin : min(-0.25f * start, 0.5f * length);
     const float stop = start + clamp(event.distance, nearest, length - margin);
     const int passes_to = primitive == HIT_LEAVING ? HIT_MISS : primitive;
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(event.stops ? HIT_MEDIUM : passes_to);
+    set_hit(hits, stride, slot, event.stops ? HIT_MEDIUM : passes_to);
     const float stop_t = max(stop, FLT_MIN);
     PLANE(hits, HIT_T)[slot] = event.stops ? (resumed ? -stop_t : stop_t) : end;
     store3(PLANE(surfaces, SURFACE_X), stride, slot, madd3(origin, direction, stop));

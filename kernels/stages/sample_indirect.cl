@@ -8,6 +8,7 @@
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "geometry/path_state.cl"
 #include "lights/guide.cl"
 #include "media/medium_stack.cl"
 #include "sampling/branch.cl"
@@ -29,8 +30,8 @@ kernel void sample_indirect(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int primitive = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
-    if (primitive < 0) return;
+    const int primitive = hit_of(hits, stride, slot);
+    if (!at_surface(primitive)) return;
     const Vec3 ng = load3(PLANE(surfaces, SURFACE_NG_X), stride, slot);
     const Vec3 n = load_shading_normal(surfaces, stride, slot);
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
@@ -94,7 +95,7 @@ kernel void sample_indirect(
     goes_on *= side * dot3(ng, wi) <= 0.0f ? 0.0f : 1.0f;
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;
     const int continues = goes_on > 0.0f;
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? primitive : HIT_ENDED);
+    set_hit(hits, stride, slot, continues ? primitive : HIT_ENDED);
     store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, leave(position, scale3(ng, side)));
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);

@@ -7,6 +7,7 @@
 //
 // One work-item a slot.
 
+#include "geometry/path_state.cl"
 #include "lights/guide.cl"
 #include "media/medium_stack.cl"
 #include "media/phase.cl"
@@ -29,7 +30,7 @@ kernel void scatter_medium(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) != HIT_MEDIUM) return;
+    if (hit_of(hits, stride, slot) != HIT_MEDIUM) return;
     const uint innermost = innermost_medium(as_uint(PLANE(path_media, MEDIUM_STACK)[slot]));
     const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
     const Vec3 position = load3(PLANE(surfaces, SURFACE_X), stride, slot);
@@ -60,7 +61,7 @@ kernel void scatter_medium(
     float goes_on = scattering < params.max_scatterings ? 1.0f : 0.0f;
     goes_on *= throughput.x + throughput.y + throughput.z <= 0.0f ? 0.0f : 1.0f;  // not NaN
     const int continues = goes_on > 0.0f;
-    PLANE(hits, HIT_PRIMITIVE)[slot] = as_float(continues ? HIT_MEDIUM : HIT_ENDED);
+    set_hit(hits, stride, slot, continues ? HIT_MEDIUM : HIT_ENDED);
     store3(PLANE(rays, RAY_ORIGIN_X), stride, slot, position);
     store3(PLANE(rays, RAY_DIRECTION_X), stride, slot, s.wi);
     store3(PLANE(throughputs, THROUGHPUT_R), stride, slot, throughput);

@@ -8,6 +8,7 @@
 //
 // One work-item a chunk.
 
+#include "geometry/path_state.cl"
 #include "sampling/vector.cl"
 #include "shared/params.h"
 #include "shared/path.h"
@@ -32,7 +33,7 @@ kernel void scatter_queue(
         at += below ? QUEUE_CHUNK - chunks[c].active : chunks[c].active;
     global uint* list = below ? holes : movers;
     for (uint slot = first; slot < last; ++slot) {
-        const int idle = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_IDLE;
+        const int idle = hit_of(hits, stride, slot) == HIT_IDLE;
         if (idle == below) list[at++] = slot;
     }
     if (last == slots) movers[0] = below ? 0 : at - 1;

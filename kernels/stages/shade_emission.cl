@@ -8,6 +8,7 @@
 // One work-item a slot.
 
 #include "geometry/interaction.cl"
+#include "geometry/path_state.cl"
 #include "geometry/surface_texture.cl"
 #include "lights/area_light.cl"
 #include "shared/params.h"
@@ -27,15 +28,15 @@ kernel void shade_emission(
     const size_t stride = settings->stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    if (as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) < 0) return;
-    if (HAS_SPLITS && PLANE(hits, HIT_T)[slot] == T_RESUMED) return;
+    if (!at_surface(hit_of(hits, stride, slot))) return;
+    if (is_resumed(hits, stride, slot)) return;
     const uint row = as_uint(PLANE(surfaces, SURFACE_LIGHT)[slot]);
     if (row == NO_LIGHT) return;
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     Vec3 emission = vec3(material->emission_r, material->emission_g, material->emission_b);
     if (HAS_EMISSION_TEXTURES) {
-        const size_t primitive = (size_t)as_int(PLANE(hits, HIT_PRIMITIVE)[slot]);
+        const size_t primitive = (size_t)hit_of(hits, stride, slot);
         emission = mul3(
             emission, emission_on_triangle(
                           TEXTURES, triangles + TRIANGLE_FLOATS * primitive,
@@ -50,9 +51,8 @@ kernel void shade_emission(
         const float cos_light = -dot3(ng, load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));
         const float distance = PLANE(hits, HIT_T)[slot];
         const float light_pdf_w = area_light_pdf_w(
-            triangles + (size_t)TRIANGLE_FLOATS * as_int(PLANE(hits, HIT_PRIMITIVE)[slot]),
-            lights + (int)row, load3(PLANE(rays, RAY_ORIGIN_X), stride, slot), distance * distance,
-            cos_light);
+            triangles + (size_t)TRIANGLE_FLOATS * hit_of(hits, stride, slot), lights + (int)row,
+            load3(PLANE(rays, RAY_ORIGIN_X), stride, slot), distance * distance, cos_light);
         const float share = WEIGH_BOTH ? power_heuristic(pdf_w, light_pdf_w) : 0.0f;
         weight = pdf_w == PDF_CERTAIN ? 1.0f : share;
     }

@@ -6,6 +6,7 @@
 //
 // One work-item a slot.
 
+#include "geometry/path_state.cl"
 #include "lights/environment.cl"
 #include "sampling/mis.cl"
 #include "shared/path.h"
@@ -22,7 +23,7 @@ kernel void shade_miss(
     const size_t stride = params.stride;
     const size_t slot = get_global_id(0);
     if (slot >= slots) return;
-    const int missed = as_int(PLANE(hits, HIT_PRIMITIVE)[slot]) == HIT_MISS;
+    const int missed = hit_of(hits, stride, slot) == HIT_MISS;
     // A look into a map costs more than vectors of slots save.
     if (HAS_ENVIRONMENT_MAP && !missed) return;
     const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
