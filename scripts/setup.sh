@@ -2,7 +2,7 @@
 # Installs the distribution's packages that are missing, and says which.
 #
 #   scripts/setup.sh demo    what it takes to build and run wavepath
-#   scripts/setup.sh test    also what it takes to build and run all tests
+#   scripts/setup.sh test    also what it takes to build and run all tests; installs the commit-msg hook in a clone
 #
 # Debian 12 and 13. Needs root only where something is missing: sudo where not root.
 set -euo pipefail
@@ -40,6 +40,13 @@ missing_of() {
         [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || echo "$package"
     done
 }
+
+install_hook() {
+    local hooks
+    hooks=$(git -C "$(dirname "${BASH_SOURCE[0]}")" rev-parse --path-format=absolute --git-path hooks 2>/dev/null) || return 0
+    [[ -e $hooks/commit-msg ]] || { mkdir -p "$hooks" && cp "$(dirname "${BASH_SOURCE[0]}")/commit-msg" "$hooks/"; }
+}
+[[ $1 != test ]] || install_hook
 
 mapfile -t missing < <(missing_of "${required[@]}")
 mapfile -t missing_checkers < <(missing_of "${optional[@]}")
