@@ -44,7 +44,7 @@ missing_of() {
 install_hook() {
     local hooks
     hooks=$(git -C "$(dirname "${BASH_SOURCE[0]}")" rev-parse --path-format=absolute --git-path hooks 2>/dev/null) || return 0
-    [[ -e $hooks/commit-msg ]] || { mkdir -p "$hooks" && cp "$(dirname "${BASH_SOURCE[0]}")/commit-msg" "$hooks/"; }
+    [[ -e $hooks/commit-msg ]] || { mkdir -p "$hooks" && cp "$(dirname "${BASH_SOURCE[0]}")/commit-msg" "$hooks/"; } 2>/dev/null || true
 }
 [[ $1 != test ]] || install_hook
 
