@@ -95,14 +95,19 @@ void add_output_options(CLI::App& app, Outputs& outputs) {
                 "\"{}\": pictures end in .exr or .png; a scene stands before -o or behind --",
                 name);
         })
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->group("Output");
     app.add_option(
            "--exposure", outputs.exposure,
            "Of the PNG: scales by 2^EV; auto: so that its mean brightness is middle grey; default "
            "0")
-        ->type_name("EV|auto");
-    app.add_option("--json", outputs.json, "Write a report of the render")->type_name("FILE");
-    app.add_flag("--quiet", outputs.quiet, "Say nothing on the way but warnings and errors");
+        ->type_name("EV|auto")
+        ->group("Output");
+    app.add_option("--json", outputs.json, "Write a report of the render")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_flag("--quiet", outputs.quiet, "Say nothing on the way but warnings and errors")
+        ->group("Output");
 }
 
 void check_outputs(Outputs& outputs) {

@@ -32,29 +32,24 @@ const std::vector<Method>& methods() {
 
 const Method& method_named(const std::string& name) {
     const auto found = std::ranges::find(methods(), name, &Method::name);
-    if (found == methods().end())
-        throw Error(
-            "--method {}: no such method; choose path, direct, bsdf, direct-bsdf or mis", name);
+    if (found == methods().end()) throw Error("there is no method {}", name);
     return *found;
 }
 
-namespace {
-
-constexpr std::string_view distance_names[] = {
-    "exponential", "uniform", "truncated", "equiangular", "mis"};
-
-}  // namespace
+const std::vector<std::string>& distance_names() {
+    static const std::vector<std::string> names{
+        "exponential", "uniform", "truncated", "equiangular", "mis"};
+    return names;
+}
 
 Distances distances_named(const std::string& name) {
-    const auto found = std::ranges::find(distance_names, name);
-    if (found == std::end(distance_names))
-        throw Error(
-            "--distance {}: choose uniform, exponential, truncated, equiangular or mis", name);
-    return static_cast<Distances>(found - std::begin(distance_names));
+    const auto found = std::ranges::find(distance_names(), name);
+    if (found == distance_names().end()) throw Error("there is no choice of distances {}", name);
+    return static_cast<Distances>(found - distance_names().begin());
 }
 
 std::string name_of(Distances distances) {
-    return std::string(distance_names[static_cast<std::size_t>(distances)]);
+    return distance_names()[static_cast<std::size_t>(distances)];
 }
 
 std::string Termination::text() const {

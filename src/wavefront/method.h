@@ -14,6 +14,8 @@ namespace wavepath {
 // kernels/shared/features.h.
 enum class Distances { exponential, uniform, truncated, equiangular, mis };
 
+// Of each of Distances, in order.
+const std::vector<std::string>& distance_names();
 // Throws Error for a name that is none of them.
 Distances distances_named(const std::string& name);
 std::string name_of(Distances distances);
