@@ -67,7 +67,7 @@ class KernelBuffers {
     const cl::Buffer& of(const std::string& kernel, const KernelParameter& parameter) const;
 
   private:
-    struct Entry {
+    struct Entry {  // NOLINT(bugprone-exception-escape): see Device
         std::string type;
         Access access = Access::read;
         cl::Buffer buffer;

@@ -252,7 +252,7 @@ std::string RenderSettings::bias() const {
 }
 
 std::string bias_of(const RenderSettings& settings, const RenderResult& result) {
-    const std::string bias = settings.bias();
+    std::string bias = settings.bias();
     if (result.cut_paths.count == 0) return bias;
     return fmt::format(
                "biased: {} cut after {} scatterings, whose further light is missing",
