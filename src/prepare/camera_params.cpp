@@ -10,18 +10,6 @@ namespace wavepath {
 
 namespace {
 
-Vec3d times(const Vec3d& a, double s) {
-    return {a[0] * s, a[1] * s, a[2] * s};
-}
-
-Vec3d plus(const Vec3d& a, const Vec3d& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-double length(const Vec3d& a) {
-    return std::hypot(a[0], a[1], a[2]);
-}
-
 void store(float& x, float& y, float& z, const Vec3d& v) {
     x = static_cast<float>(v[0]);
     y = static_cast<float>(v[1]);
@@ -40,7 +28,9 @@ void set_camera(
     const View view = view_of(camera, geometry, width, height);
     const double pixel = 2 * view.half_height / height;
     const double radius = geometry.is_far() ? 1.0001 * geometry.reach : 0.8661;  // around all
-    const double to_centre = camera.orthographic ? -dot(view.eye, view.forward) : length(view.eye);
+    const double to_centre = camera.orthographic
+                                 ? -dot(view.eye, view.forward)
+                                 : std::hypot(view.eye[0], view.eye[1], view.eye[2]);
     double ray_start = std::max(0.0, to_centre - radius);
     if (std::isfinite(placed.free_distance)) ray_start = std::max(ray_start, placed.free_distance);
     const bool is_far = ray_start > far_eye;

@@ -13,18 +13,6 @@ namespace wavepath {
 
 namespace {
 
-Vec3d times(const Vec3d& a, double s) {
-    return {a[0] * s, a[1] * s, a[2] * s};
-}
-
-Vec3d plus(const Vec3d& a, const Vec3d& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-double length(const Vec3d& a) {
-    return std::hypot(a[0], a[1], a[2]);
-}
-
 Camera overview(const Extent& extent) {
     constexpr double y_fov = std::numbers::pi / 4;
     // the bounding sphere of the unit cube around the origin fits the field of view
@@ -36,10 +24,9 @@ Camera overview(const Extent& extent) {
 }  // namespace
 
 Camera look_at(const Vec3d& eye, const Vec3d& target, double y_fov) {
-    const Vec3d back = minus(eye, target);
-    if (!(length(back) > 0))
+    const Vec3d z = normalized(minus(eye, target));
+    if (z == Vec3d{0, 0, 0})
         throw Error("--look-at: eye and target are the same point; move one of them");
-    const Vec3d z = normalized(back);
     const Vec3d up = std::hypot(z[0], z[2]) > 1e-6 ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
     const Vec3d x = normalized(cross(up, z));
     const Vec3d y = cross(z, x);

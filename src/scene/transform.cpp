@@ -64,6 +64,14 @@ Vec3d transform_normal(const Matrix4& m, const Vec3d& n) {
     return normalized(r);
 }
 
+Vec3d plus(const Vec3d& a, const Vec3d& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+Vec3d times(const Vec3d& a, double s) {
+    return {a[0] * s, a[1] * s, a[2] * s};
+}
+
 Vec3d minus(const Vec3d& a, const Vec3d& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }

@@ -33,7 +33,11 @@ Vec3d transform_point(const Matrix4& matrix, const Vec3d& point);
 // matrices. Unit, or zero where it has no direction.
 Vec3d transform_normal(const Matrix4& matrix, const Vec3d& normal);
 
+Vec3d plus(const Vec3d& a, const Vec3d& b);
+
 Vec3d minus(const Vec3d& a, const Vec3d& b);
+
+Vec3d times(const Vec3d& a, double s);
 
 double dot(const Vec3d& a, const Vec3d& b);
 

@@ -14,18 +14,6 @@ namespace wavepath {
 
 namespace {
 
-Vec3d plus(const Vec3d& a, const Vec3d& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-Vec3d times(const Vec3d& a, double s) {
-    return {a[0] * s, a[1] * s, a[2] * s};
-}
-
-double dot(const Vec3d& a, const Vec3d& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 void append(std::vector<float>& to, const Vec3d& v) {
     for (const double x : v) to.push_back(static_cast<float>(x));
 }
