@@ -55,10 +55,9 @@ PathPool::PathPool(const Device& device, uint32_t slot_count, const Features& fe
           device, std::vector<cl_uint>(std::size_t{STATISTICS} * chunks(), 0), "statistics") {}
 
 std::size_t PathPool::bytes() const {
-    return rays.bytes() + hits.bytes() + surfaces.bytes() + throughputs.bytes() +
-           radiances.bytes() + shadows.bytes() + media.bytes() + branches.bytes() + ids.bytes() +
-           fates.bytes() + chunk_states.bytes() + holes.bytes() + movers.bytes() +
-           statistics.bytes();
+    KernelBuffers buffers;
+    name(buffers);
+    return buffers.bytes();
 }
 
 void PathPool::name(KernelBuffers& buffers) const {

@@ -1,9 +1,9 @@
 // The path slots and what manages them: everything that is sized by --pool.
 #pragma once
 
-#include "device/kernel_buffers.h"
 #include "shared/queues.h"
 #include "wavefront/features.h"
+#include "wavefront/kernel_buffers.h"
 
 namespace wavepath {
 

@@ -99,8 +99,9 @@ SceneBuffers::SceneBuffers(const Device& device, const Scene& scene, const Prepa
 }
 
 std::size_t SceneBuffers::bytes() const {
-    return nodes.bytes() + blocks.bytes() + mesh.bytes() + triangles.bytes() + materials.bytes() +
-           lights.bytes() + media.bytes() + environment.bytes() + textures.bytes();
+    KernelBuffers buffers;
+    name(buffers);
+    return buffers.bytes();
 }
 
 void SceneBuffers::name(KernelBuffers& buffers) const {

@@ -1,9 +1,9 @@
 // The scene on the device.
 #pragma once
 
-#include "device/kernel_buffers.h"
 #include "prepare/prepared_scene.h"
 #include "shared/scene.h"
+#include "wavefront/kernel_buffers.h"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 // A kernel with its buffers, which times every launch.
 #pragma once
 
-#include "device/kernel_buffers.h"
 #include "device/profile.h"
+#include "wavefront/kernel_buffers.h"
 
 #include <initializer_list>
 #include <string>

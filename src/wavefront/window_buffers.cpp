@@ -14,7 +14,9 @@ WindowBuffers::WindowBuffers(const Device& device, uint64_t max_cells)
       cell_flags(device, max_cells, "units of work") {}
 
 std::size_t WindowBuffers::bytes() const {
-    return settings.bytes() + plan.bytes() + cells.bytes() + cell_flags.bytes();
+    KernelBuffers buffers;
+    name(buffers);
+    return buffers.bytes();
 }
 
 void WindowBuffers::name(KernelBuffers& buffers) const {

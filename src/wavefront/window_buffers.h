@@ -1,7 +1,7 @@
 // What a window needs besides its paths: what is to be rendered, and the sums of its units of work.
 #pragma once
 
-#include "device/kernel_buffers.h"
+#include "wavefront/kernel_buffers.h"
 
 namespace wavepath {
 

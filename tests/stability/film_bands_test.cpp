@@ -1,4 +1,5 @@
 // A film larger than one buffer of the device is the film of one buffer.
+#include "shared/film.h"
 #include "support/rendering.h"
 
 #include <gmock/gmock.h>

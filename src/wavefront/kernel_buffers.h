@@ -4,7 +4,6 @@
 #include "device/device_array.h"
 #include "device/kernel_signature.h"
 #include "shared/bvh.h"
-#include "shared/film.h"
 #include "shared/params.h"
 #include "shared/queues.h"
 #include "shared/scene.h"
@@ -56,10 +55,12 @@ class KernelBuffers {
     // `access`: whether kernels may write it.
     template <typename T>
     void add(const std::string& name, const DeviceArray<T>& array, Access access) {
-        entries_[name] = {std::string(kernel_type<T>), access, array.buffer()};
+        entries_[name] = {std::string(kernel_type<T>), access, array.bytes(), array.buffer()};
     }
 
     bool has(const std::string& name) const { return entries_.contains(name); }
+    // Of all together.
+    std::size_t bytes() const;
 
     // The buffer of a parameter of this kernel. Throws Error, naming both, where there is none of
     // this name, where its elements are of another type, or where the kernel writes what it may
@@ -70,6 +71,7 @@ class KernelBuffers {
     struct Entry {  // NOLINT(bugprone-exception-escape): see Device
         std::string type;
         Access access = Access::read;
+        std::size_t bytes = 0;
         cl::Buffer buffer;
     };
 

@@ -1,6 +1,12 @@
-#include "device/kernel_buffers.h"
+#include "wavefront/kernel_buffers.h"
 
 namespace wavepath {
+
+std::size_t KernelBuffers::bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [name, entry] : entries_) sum += entry.bytes;
+    return sum;
+}
 
 const cl::Buffer& KernelBuffers::of(
     const std::string& kernel, const KernelParameter& parameter) const {
