@@ -31,9 +31,8 @@ kernel void pass_walls(
     if (slot >= slots) return;
     const int primitive = hit_of(hits, stride, slot);
     if (!at_surface(primitive)) return;
-    // a branch vertex that is resumed has not been passed
+    if (is_resumed(hits, stride, slot)) return;  // it has not been passed
     const float t = PLANE(hits, HIT_T)[slot];
-    if (HAS_SPLITS && t == T_RESUMED) return;
     global const DeviceMaterial* material =
         materials + as_int(PLANE(surfaces, SURFACE_MATERIAL)[slot]);
     if (material->boundary != BOUNDARY_OPAQUE) return;

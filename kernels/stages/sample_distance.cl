@@ -49,9 +49,9 @@ kernel void sample_distance(
     }
     if (!at_surface(primitive) && primitive != HIT_LEAVING) return;
     if (innermost == 0) return;
+    if (is_resumed(hits, stride, slot)) return;
+    const int resumed = is_traced(hits, stride, slot);
     const float hit_t = PLANE(hits, HIT_T)[slot];
-    if (HAS_SPLITS && hit_t == T_RESUMED) return;
-    const int resumed = HAS_SPLITS && hit_t < 0.0f;
     global const DeviceMedium* medium = media + (int)innermost - 1;
     const float start = PLANE(path_media, MEDIUM_T)[slot];
     const float end = fabs(hit_t);
