@@ -27,6 +27,18 @@ Scene with_camera(const Json& camera, Json node = Json::object()) {
     return load(gltf);
 }
 
+// Cameras of these names, on no node yet.
+GltfBuilder with_cameras(const std::vector<std::string>& names) {
+    GltfBuilder gltf;
+    gltf.triangle();
+    for (const std::string& name : names) {
+        Json camera = perspective;
+        camera["name"] = name;
+        gltf.add("cameras", camera);
+    }
+    return gltf;
+}
+
 TEST(GltfCamera, ReadsPerspective) {
     Json source = perspective;
     source["name"] = "front";
@@ -67,13 +79,7 @@ TEST(GltfCamera, IgnoresTheScaleOfItsNode) {
 }
 
 TEST(GltfCamera, KeepsTheOrderOfNodes) {
-    GltfBuilder gltf;
-    gltf.triangle();
-    for (const char* name : {"a", "b"}) {
-        Json camera = perspective;
-        camera["name"] = name;
-        gltf.add("cameras", camera);
-    }
+    GltfBuilder gltf = with_cameras({"a", "b"});
     gltf.node({{"camera", 1}});
     gltf.node({{"camera", 0}});
     const Scene scene = load(gltf);
@@ -84,13 +90,7 @@ TEST(GltfCamera, KeepsTheOrderOfNodes) {
 
 // Blender's users see the name of the object, which is the node's.
 TEST(GltfCamera, IsFoundByTheNameOfItsNode) {
-    GltfBuilder gltf;
-    gltf.triangle();
-    for (const char* name : {"Camera", "Camera.001"}) {
-        Json camera = perspective;
-        camera["name"] = name;
-        gltf.add("cameras", camera);
-    }
+    GltfBuilder gltf = with_cameras({"Camera", "Camera.001"});
     gltf.node({{"camera", 0}, {"name", "Camera.001"}});
     gltf.node({{"camera", 1}, {"name", "close"}});
     const Scene scene = load(gltf);
