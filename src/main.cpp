@@ -65,7 +65,7 @@ void occupy_standard_streams() {
         if (fcntl(fd, F_GETFD) < 0) open("/dev/null", (fd == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
-int run(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
     if (wavepath::run_device_probe(argc, argv)) return 0;
     spdlog::set_default_logger(spdlog::stderr_color_st("wavepath"));
     spdlog::set_pattern("%^%l%$: %v");
@@ -127,7 +127,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     occupy_standard_streams();
     try {
-        return run(argc, argv);
+        return run_command_line(argc, argv);
     } catch (const std::exception& error) {  // before there is a logger, or of the logger
         std::fprintf(stderr, "error: %s\n", error.what());
         return exit_failure;
