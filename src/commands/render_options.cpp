@@ -4,13 +4,13 @@
 #include "gltf/gltf_loader.h"
 #include "scene/camera.h"
 #include "scene/environment_map.h"
+#include "stopwatch.h"
 
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -283,15 +283,14 @@ RenderJob prepare_job(const RenderOptions& options) {
             "--lumens-per-watt {}: use a number above 0, 683 for lights in candela and lux",
             options.lumens_per_watt);
 
-    const auto start = std::chrono::steady_clock::now();
+    Stopwatch watch;
     job.scene = load_gltf(
         options.scene, options.scene_of_file, options.max_texels << 20U, options.lumens_per_watt);
     job.lumens_per_watt = options.lumens_per_watt;
     job.scene.environment = parse_environment(options);
     settings.camera = parse_camera(options, job.scene);
     parse_size(options.size, settings.camera, settings);
-    job.load_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    job.load_seconds = watch.lap();
     return job;
 }
 

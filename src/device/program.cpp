@@ -5,9 +5,9 @@
 #include "device/embedded_kernels.h"
 #include "device/selection.h"
 #include "error.h"
+#include "stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -254,7 +254,7 @@ std::string assemble_source(const std::string& defines, const std::vector<std::s
 }
 
 cl::Program build_program(const Device& device, const std::string& source, BuildReport* report) {
-    const auto start = std::chrono::steady_clock::now();
+    Stopwatch watch;
     std::string options = "-cl-std=CL1.2";
     if (device.info.correctly_rounded) options += " -cl-fp32-correctly-rounded-divide-sqrt";
     const BinaryCache cache(device, source, options);
@@ -270,8 +270,7 @@ cl::Program build_program(const Device& device, const std::string& source, Build
         throw Error(
             "the program built holds no kernel ({}): {}", device.info.name, pocl_cache_advice());
     if (report != nullptr) {
-        report->seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        report->seconds = watch.lap();
         report->from_cache = from_cache;
         report->log = build_log(program, device);
     }

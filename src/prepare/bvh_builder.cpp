@@ -3,10 +3,10 @@
 #include "error.h"
 #include "prepare/embree.h"
 #include "prepare/triangle_split.h"
+#include "stopwatch.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -262,7 +262,7 @@ Attempt attempt(
 }  // namespace
 
 Bvh build_bvh(const std::vector<float>& positions) {
-    const auto start = std::chrono::steady_clock::now();
+    Stopwatch watch;
     const std::unique_ptr<RTCDeviceTy, Release> device(rtcNewDevice(nullptr));
     if (!device) {
         const RTCError error = rtcGetDeviceError(nullptr);
@@ -276,8 +276,7 @@ Bvh build_bvh(const std::vector<float>& positions) {
     if (best.overlap > worthwhile_overlap)
         best = attempt(device.get(), positions, true, depth_limits.front());
     if (best.stack > BVH_STACK) best = attempt(device.get(), positions, false, depth_limits.back());
-    best.bvh.build_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    best.bvh.build_seconds = watch.lap();
     return std::move(best.bvh);
 }
 

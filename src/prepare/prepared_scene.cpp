@@ -1,16 +1,12 @@
 #include "prepare/prepared_scene.h"
 
+#include "stopwatch.h"
+
 #include <algorithm>
-#include <chrono>
 
 namespace wavepath {
 
 namespace {
-
-double seconds_now() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double>(now).count();
-}
 
 std::vector<bool> worn_materials(const Scene& scene, const NormalisedScene& geometry) {
     std::vector<bool> worn(scene.materials.size(), false);
@@ -42,7 +38,7 @@ bool PreparedScene::has_area_lights() const {
 
 PreparedScene prepare(const Scene& scene, const Camera& camera, const Preparation& preparation) {
     PreparedScene out;
-    const double start = seconds_now();
+    Stopwatch watch;
     out.placed = place(scene, camera, preparation.width, preparation.height);
     const NormalisedScene& geometry = out.placed.geometry;
     Bvh& bvh = out.placed.bvh;
@@ -53,9 +49,8 @@ PreparedScene prepare(const Scene& scene, const Camera& camera, const Preparatio
     out.media = build_media_tables(scene, geometry);
     warnings.insert(warnings.end(), out.media.warnings.begin(), out.media.warnings.end());
     out.textures = build_texture_tables(scene, out.worn, preparation.page_bytes);
-    out.guide = guide_to_lights(scene, geometry, out.lights, out.media);
-    const double tables_end = seconds_now();
-    out.normalise_seconds = tables_end - start - bvh.build_seconds;
+    if (preparation.aims) out.guide = guide_to_lights(scene, geometry, out.lights, out.media);
+    out.normalise_seconds = watch.lap() - bvh.build_seconds;
 
     const std::vector<bool> holes = triangles_with_holes(scene, geometry);
     if (std::ranges::find(holes, true) == holes.end())
@@ -65,7 +60,7 @@ PreparedScene prepare(const Scene& scene, const Camera& camera, const Preparatio
     out.at_lamps = mark_lamp_contacts(scene, geometry, bvh, out.lights.triangle_lights);
     out.has_contacts = out.at_lamps.surfaces ||
                        (has_glass(scene, out) && wavepath::has_contacts(scene, geometry, bvh));
-    out.bvh_seconds = bvh.build_seconds + seconds_now() - tables_end;
+    out.bvh_seconds = bvh.build_seconds + watch.lap();
     return out;
 }
 

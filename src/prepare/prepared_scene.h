@@ -14,6 +14,7 @@ struct Preparation {
     uint32_t width = 1, height = 1;  // of the image
     LightChoice light_choice = LightChoice::power;
     bool lights_alone = false;  // no other way finds the environment (build_light_tables)
+    bool aims = false;          // directions may be aimed: a guide is looked for
     uint64_t page_bytes = 0;    // most of textures in one buffer
 };
 

@@ -152,8 +152,7 @@ Features features_of(
     f.environment_map = f.environment && scene.environment->width > 0;
     add_media(f, prepared.media);
     add_method(f, prepared.lights, settings.method);
-    f.guide =
-        settings.method.guide && f.weigh_both && !f.transmission && prepared.guide.has_value();
+    f.guide = f.weigh_both && !f.transmission && prepared.guide.has_value();
     f.split_levels = branches(f, settings.splits) ? settings.split_depth : 0;
     f.far_camera = settings.far_camera;
     f.sobol = settings.sobol;

@@ -5,30 +5,18 @@
 #include "prepare/camera_params.h"
 #include "prepare/hidden_lights.h"
 #include "prepare/prepared_scene.h"
+#include "shared/path.h"
+#include "stopwatch.h"
+#include "wavefront/render_params.h"
 #include "wavefront/sample_plan.h"
 #include "wavefront/schedule.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace wavepath {
 
 namespace {
-
-class Stopwatch {
-  public:
-    // Seconds since the last lap, or since the start.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 // Throws Error where nothing shines, or nothing that the method can find.
 void check_lights(
@@ -60,51 +48,26 @@ void check_lights(
         "--method {} cannot find punctual lights: their light is missing", method.name));
 }
 
-void set_surroundings(RenderParams& params, const Scene& scene, const PreparedScene& prepared) {
-    params.light_count = static_cast<cl_uint>(prepared.lights.lights.size());
-    params.material_count = static_cast<cl_uint>(scene.materials.size());
-    params.environment_pmf = prepared.lights.environment_pmf;
-    params.environment_left = prepared.lights.environment_left;
-    if (scene.environment) {
-        params.environment_width = scene.environment->width;
-        params.environment_height = scene.environment->height;
-        params.environment_r = scene.environment->radiance[0];
-        params.environment_g = scene.environment->radiance[1];
-        params.environment_b = scene.environment->radiance[2];
-    }
-    if (prepared.guide) {
-        params.guide_x = static_cast<float>(prepared.guide->centre[0]);
-        params.guide_y = static_cast<float>(prepared.guide->centre[1]);
-        params.guide_z = static_cast<float>(prepared.guide->centre[2]);
-        params.guide_radius2 = static_cast<float>(prepared.guide->radius * prepared.guide->radius);
-    }
+Preparation preparation_of(const RenderSettings& settings, const DeviceInfo& device) {
+    return {
+        .width = settings.width,
+        .height = settings.height,
+        .light_choice = settings.method.light_choice,
+        .lights_alone = !settings.method.weigh_both,
+        .aims = settings.method.guide && settings.method.weigh_both,
+        .page_bytes = device.max_allocation};
 }
 
-// All but the window's.
-RenderParams params_of(
-    const Scene& scene, PreparedScene& prepared, const RenderSettings& settings) {
-    RenderParams params{};
-    set_camera(params, settings.camera, prepared.placed, settings.width, settings.height);
-    params.camera_media = media_at_camera(scene, prepared.media, params);
-    if (params.camera_media != 0 && prepared.placed.free_distance > 0) {
-        // What it absorbs begins at the eye.
-        prepared.placed.free_distance = 0;
-        set_camera(params, settings.camera, prepared.placed, settings.width, settings.height);
-    }
-    set_surroundings(params, scene, prepared);
-    params.seed = settings.seed;
-    params.max_scatterings = settings.termination.kind == TerminationKind::depth
-                                 ? settings.termination.depth
-                                 : MAX_SCATTERINGS;
-    params.roulette = settings.termination.kind == TerminationKind::roulette            ? 1
-                      : settings.termination.kind == TerminationKind::roulette_constant ? 2
-                                                                                        : 0;
-    params.survival = settings.termination.survival;
-    params.splits = settings.splits.reflections;
-    params.stops = settings.splits.stops;
-    params.stop_directions = settings.splits.directions;
-    params.split_depth = settings.split_depth;
-    return params;
+FeatureSettings feature_settings_of(
+    const RenderSettings& settings, bool far_camera, const DeviceInfo& device) {
+    return {
+        .method = settings.method,
+        .splits = settings.splits,
+        .split_depth = settings.split_depth,
+        .sobol = settings.sobol,
+        .layers_conserve = settings.layers_conserve,
+        .far_camera = far_camera,
+        .is_cpu = device.is_cpu};
 }
 
 void check_splits(const RenderSettings& settings, bool media_scatter) {
@@ -270,10 +233,7 @@ RenderResult render(
     const std::function<bool()>& stop) {
     RenderResult result;
     Stopwatch watch;
-    PreparedScene prepared = prepare(
-        scene, settings.camera,
-        {settings.width, settings.height, settings.method.light_choice, !settings.method.weigh_both,
-         device.info.max_allocation});
+    PreparedScene prepared = prepare(scene, settings.camera, preparation_of(settings, device.info));
     result.times.normalise = prepared.normalise_seconds;
     result.times.bvh_build = prepared.bvh_seconds;
     result.warnings = prepared.placed.warnings;
@@ -286,9 +246,7 @@ RenderResult render(
             "or widen its view",
             scene.name, settings.camera.name));
     const Features features = features_of(
-        scene, prepared,
-        {settings.method, settings.splits, settings.split_depth, settings.sobol,
-         settings.layers_conserve, is_far_camera(params), device.info.is_cpu});
+        scene, prepared, feature_settings_of(settings, is_far_camera(params), device.info));
     watch.lap();
     const SceneBuffers buffers(device, scene, prepared);
     result.times.upload = watch.lap();

@@ -247,6 +247,7 @@ struct Tally {
 void check_prepared(const Scene& scene) {
     Preparation preparation;
     preparation.lights_alone = true;
+    preparation.aims = true;
     preparation.page_bytes = 1U << 30U;
     const PreparedScene prepared = prepare(scene, choose_camera(scene, ""), preparation);
     const NormalisedScene& geometry = prepared.geometry();
