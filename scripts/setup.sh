@@ -17,10 +17,11 @@ build_packages=(
     ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
     libcli11-dev libdraco-dev libembree-dev libfmt-dev libmeshoptimizer-dev libopenexr-dev libspdlog-dev libstb-dev
     libtinygltf-dev libwebp-dev nlohmann-json3-dev pkgconf zlib1g-dev
+    gnuplot-nox
 )
 test_packages=(libbenchmark-dev libgmock-dev libgtest-dev)
 # The tests that use one of these are skipped, with the reason, where the distribution does not have it.
-checker_packages=(clang clang-format-14 clang-tidy dpkg-dev file gnuplot-nox oclgrind openexr openimageio-tools
+checker_packages=(clang clang-format-14 clang-tidy dpkg-dev file oclgrind openexr openimageio-tools
                   python3 shellcheck)
 
 case "${1:-}" in

@@ -8,13 +8,15 @@ SRC = Path(__file__).resolve().parents[2] / "src"
 ANYWHERE = {"shared", "root"}  # kernels/shared, and what lies in src itself
 
 BELOW = {
-    "commands": {"wavefront", "film", "device", "gltf", "scene", "image"},
+    "commands": {"wavefront", "film", "device", "gltf", "scene", "page", "measure", "image"},
     "wavefront": {"film", "device", "prepare", "scene"},
     "film": {"device", "image"},
     "device": set(),
     "prepare": {"scene"},
     "gltf": {"scene"},
     "scene": {"image"},
+    "page": {"image"},
+    "measure": {"image"},
     "image": set(),
 }
 
