@@ -4,6 +4,7 @@
 // scene is large, geometry/ray_stream.cl, or small, geometry/ray_packet.cl.
 #pragma once
 
+#include "geometry/ray.cl"
 #include "geometry/simd.cl"
 #include "geometry/surface_texture.cl"
 #include "geometry/triangle.cl"
@@ -37,49 +38,24 @@ typedef struct {
         row_z;  // where the bounds first met begin in BvhNode::bounds; ^ 8: the others
 } SlabRay;
 
-// 1/d with |d| raised to 1e-18: an axis-parallel ray gets finite slabs, not 0 * infinity = NaN.
-INLINE float safe_reciprocal(const float d) {
-    return 1.0f / (fabs(d) < 1e-18f ? copysign(1e-18f, d) : d);
-}
-
-// t_max, or -1, before which nothing lies, for a ray that means nothing: no length, no direction, a
-// number that is none or so large that slabs would overflow. With it no comparison meets a NaN.
-INLINE float end_of_ray(
-    const float ox,
-    const float oy,
-    const float oz,
-    const float dx,
-    const float dy,
-    const float dz,
-    const float t_max) {
-    const float away = fabs(ox) + fabs(oy) + fabs(oz);
-    const float length = fabs(dx) + fabs(dy) + fabs(dz);
-    return t_max > 0.0f && away < 1e18f && length > 1e-18f && length < 1e18f ? t_max : -1.0f;
-}
-
-INLINE SlabRay slab_ray(
-    const float ox,
-    const float oy,
-    const float oz,
-    const float dx,
-    const float dy,
-    const float dz) {
-    const float reach = max(fabs(ox), max(fabs(oy), fabs(oz))) + 0.5f;
+INLINE SlabRay slab_ray(const Ray* ray) {
+    const Vec3 o = ray->origin;
+    const float reach = max(fabs(o.x), max(fabs(o.y), fabs(o.z))) + 0.5f;
     const float slack = 0x1p-20f * reach;
-    SlabRay ray;
-    ray.ix = safe_reciprocal(dx);
-    ray.iy = safe_reciprocal(dy);
-    ray.iz = safe_reciprocal(dz);
-    ray.near_x = -ox * ray.ix - slack * fabs(ray.ix);
-    ray.near_y = -oy * ray.iy - slack * fabs(ray.iy);
-    ray.near_z = -oz * ray.iz - slack * fabs(ray.iz);
-    ray.far_x = -ox * ray.ix + slack * fabs(ray.ix);
-    ray.far_y = -oy * ray.iy + slack * fabs(ray.iy);
-    ray.far_z = -oz * ray.iz + slack * fabs(ray.iz);
-    ray.row_x = ray.ix < 0.0f ? 8 : 0;
-    ray.row_y = ray.iy < 0.0f ? 24 : 16;
-    ray.row_z = ray.iz < 0.0f ? 40 : 32;
-    return ray;
+    SlabRay slabs;
+    slabs.ix = safe_reciprocal(ray->direction.x);
+    slabs.iy = safe_reciprocal(ray->direction.y);
+    slabs.iz = safe_reciprocal(ray->direction.z);
+    slabs.near_x = -o.x * slabs.ix - slack * fabs(slabs.ix);
+    slabs.near_y = -o.y * slabs.iy - slack * fabs(slabs.iy);
+    slabs.near_z = -o.z * slabs.iz - slack * fabs(slabs.iz);
+    slabs.far_x = -o.x * slabs.ix + slack * fabs(slabs.ix);
+    slabs.far_y = -o.y * slabs.iy + slack * fabs(slabs.iy);
+    slabs.far_z = -o.z * slabs.iz + slack * fabs(slabs.iz);
+    slabs.row_x = slabs.ix < 0.0f ? 8 : 0;
+    slabs.row_y = slabs.iy < 0.0f ? 24 : 16;
+    slabs.row_z = slabs.iz < 0.0f ? 40 : 32;
+    return slabs;
 }
 
 // Which children's boxes the ray crosses in [t_min, t_max] (-1), and where it enters them. A box
@@ -180,25 +156,14 @@ INLINE int any_in_block(
     return 0;
 }
 
-// The closest triangle behind `start` and before t_max that stops the ray: the nearest child is
-// entered, the others wait with their distances and are dropped when a hit has come nearer. Not
-// inlined: PoCL would give every work-item of a group a stack of its own, where one serves all in
-// turn and stays in the cache.
-Hit closest_hit(
-    global const BvhNode* nodes,
-    global const TriangleBlock* blocks,
-    const float ox,
-    const float oy,
-    const float oz,
-    const float dx,
-    const float dy,
-    const float dz,
-    const float t_max,
-    const RayStart start,
-    const Cover* cover) {
-    const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
-    const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
-    Hit hit = {end_of_ray(ox, oy, oz, dx, dy, dz, t_max), 0.0f, 0.0f, -1};
+// The closest triangle behind `start` and before the end of the ray that stops the ray: the nearest
+// child is entered, the others wait with their distances and are dropped when a hit has come
+// nearer. Not inlined: PoCL would give every work-item of a group a stack of its own, where one
+// serves all in turn and stays in the cache.
+Hit closest_hit(const Tree tree, const Ray* ray, const RayStart start, const Cover* cover) {
+    const SlabRay slabs = slab_ray(ray);
+    const ShearedRay sheared = shear_ray(ray);
+    Hit hit = {end_of_ray(ray), 0.0f, 0.0f, -1};
     uint waiting[BVH_STACK];
     float waiting_t[BVH_STACK];
     int top = 0;
@@ -206,15 +171,15 @@ Hit closest_hit(
     for (;;) {
         uint lanes = 0;
         if (current & BVH_LEAF) {
-            closest_in_block(blocks + (current & ~BVH_LEAF), &sheared, start, cover, &hit);
+            closest_in_block(tree.blocks + (current & ~BVH_LEAF), &sheared, start, cover, &hit);
         } else {
             float8 t_near;
             lanes = lane_mask(intersect_node(
-                nodes + current, &slabs, STARTS_BEHIND ? start.t : 0.0f, hit.t, &t_near));
+                tree.nodes + current, &slabs, STARTS_BEHIND ? start.t : 0.0f, hit.t, &t_near));
             if (lanes != 0) {
                 float ts[8];
                 vstore8(t_near, 0, ts);
-                global const uint* children = nodes[current].children;
+                global const uint* children = tree.nodes[current].children;
                 uint lane = 31u - clz(lanes);
                 lanes ^= 1u << lane;
                 uint nearest = children[lane];
@@ -245,30 +210,21 @@ Hit closest_hit(
 
 // 1 if a triangle lies in (0, t_max) and stops the ray. Any order of the children will do; not
 // inlined, as above.
-int any_hit(
-    global const BvhNode* nodes,
-    global const TriangleBlock* blocks,
-    const float ox,
-    const float oy,
-    const float oz,
-    const float dx,
-    const float dy,
-    const float dz,
-    const float t_max,
-    const Cover* cover) {
-    const SlabRay slabs = slab_ray(ox, oy, oz, dx, dy, dz);
-    const ShearedRay sheared = shear_ray(ox, oy, oz, dx, dy, dz);
-    const float end = end_of_ray(ox, oy, oz, dx, dy, dz, t_max);
+int any_hit(const Tree tree, const Ray* ray, const Cover* cover) {
+    const SlabRay slabs = slab_ray(ray);
+    const ShearedRay sheared = shear_ray(ray);
+    const float end = end_of_ray(ray);
     uint waiting[BVH_STACK];
     int top = 0;
     uint current = 0;
     for (;;) {
         if (current & BVH_LEAF) {
-            if (any_in_block(blocks + (current & ~BVH_LEAF), &sheared, cover, end)) return 1;
+            if (any_in_block(tree.blocks + (current & ~BVH_LEAF), &sheared, cover, end)) return 1;
         } else {
             float8 t_near;
-            uint lanes = lane_mask(intersect_node(nodes + current, &slabs, 0.0f, end, &t_near));
-            global const uint* children = nodes[current].children;
+            uint lanes =
+                lane_mask(intersect_node(tree.nodes + current, &slabs, 0.0f, end, &t_near));
+            global const uint* children = tree.nodes[current].children;
             while (lanes != 0) {
                 const uint lane = 31u - clz(lanes);
                 lanes ^= 1u << lane;

@@ -62,22 +62,15 @@ INLINE int packet_has_room(const RayPacket* packet) {
     return packet->count < PACKET_RAYS;
 }
 
-INLINE void packet_add(
-    RayPacket* packet,
-    const uint item,
-    const Vec3 origin,
-    const Vec3 direction,
-    const float t_max,
-    const RayStart start) {
+INLINE void packet_add(RayPacket* packet, const uint item, const Ray* ray, const RayStart start) {
     const int k = packet->count;
-    packet->ox[k] = origin.x;
-    packet->oy[k] = origin.y;
-    packet->oz[k] = origin.z;
-    packet->dx[k] = direction.x;
-    packet->dy[k] = direction.y;
-    packet->dz[k] = direction.z;
-    packet->t_max[k] =
-        end_of_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, t_max);
+    packet->ox[k] = ray->origin.x;
+    packet->oy[k] = ray->origin.y;
+    packet->oz[k] = ray->origin.z;
+    packet->dx[k] = ray->direction.x;
+    packet->dy[k] = ray->direction.y;
+    packet->dz[k] = ray->direction.z;
+    packet->t_max[k] = end_of_ray(ray);
     packet->start_t[k] = start.t;
     packet->start_primitive[k] = start.primitive;
     packet->item[k] = item;
@@ -119,6 +112,14 @@ INLINE void shear_mesh(
     }
 }
 
+INLINE Corners sheared_corner(const ShearedMesh* mesh, const uint k) {
+    Corners corner;
+    corner.x = mesh->x[k];
+    corner.y = mesh->y[k];
+    corner.z = mesh->z[k];
+    return corner;
+}
+
 // Rays that hit triangle k of the mesh with t > 0 (-1), and where.
 INLINE int8 intersect_lanes(
     global const SmallMesh* mesh,
@@ -127,12 +128,10 @@ INLINE int8 intersect_lanes(
     float8* t,
     float8* u,
     float8* v) {
-    const uint a = mesh->triangles[k][0];
-    const uint b = mesh->triangles[k][1];
-    const uint c = mesh->triangles[k][2];
     return intersect_sheared(
-        sheared->x[a], sheared->y[a], sheared->z[a], sheared->x[b], sheared->y[b], sheared->z[b],
-        sheared->x[c], sheared->y[c], sheared->z[c], sheared->sz, t, u, v);
+        sheared_corner(sheared, mesh->triangles[k][0]),
+        sheared_corner(sheared, mesh->triangles[k][1]),
+        sheared_corner(sheared, mesh->triangles[k][2]), sheared->sz, t, u, v);
 }
 
 // The closest triangle behind the start and before t_max of every ray; with HAS_MATCHED_MEDIA,

@@ -6,7 +6,7 @@
 //     stream_open(&stream);
 //     do {
 //         while (rays are left && stream_has_room(&stream)) stream_add(&stream, item, ...);
-//         stream_step(&stream, nodes, blocks, &cover, any);
+//         stream_step(&stream, tree, &cover, any);
 //         for (int k = 0; k < stream.ended; ++k) use stream_ended(&stream, k)
 //     } while (rays are left || stream_busy(&stream));
 //
@@ -68,21 +68,14 @@ INLINE const StreamRay* stream_ended(const RayStream* stream, const int k) {
 }
 
 INLINE void stream_add(
-    RayStream* stream,
-    const uint item,
-    const Vec3 origin,
-    const Vec3 direction,
-    const float t_max,
-    const RayStart start,
-    const uint key) {
+    RayStream* stream, const uint item, const Ray* added, const RayStart start, const uint key) {
     --stream->idles;
     const int i = stream->idle[stream->idles];
     StreamRay* ray = &stream->rays[i];
-    ray->slabs = slab_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z);
-    ray->sheared = shear_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z);
+    ray->slabs = slab_ray(added);
+    ray->sheared = shear_ray(added);
     if (STARTS_BEHIND) ray->start = start;
-    ray->hit.t =
-        end_of_ray(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, t_max);
+    ray->hit.t = end_of_ray(added);
     ray->hit.u = 0.0f;
     ray->hit.v = 0.0f;
     ray->hit.primitive = -1;
@@ -97,13 +90,12 @@ INLINE void stream_add(
 }
 
 // Fetches what the ray's next step reads; says whether that is a leaf, or the end.
-INLINE int fetch_next(
-    const StreamRay* ray, global const BvhNode* nodes, global const TriangleBlock* blocks) {
+INLINE int fetch_next(const StreamRay* ray, const Tree tree) {
     const uint next = ray->current;
     const int leaf = (int)(next >> 31);
     const size_t index = next & ~BVH_LEAF;
-    const size_t start = leaf ? (size_t)blocks + index * sizeof(TriangleBlock)
-                              : (size_t)nodes + index * sizeof(BvhNode);
+    const size_t start = leaf ? (size_t)tree.blocks + index * sizeof(TriangleBlock)
+                              : (size_t)tree.nodes + index * sizeof(BvhNode);
     PREFETCH_LINE(start, 0);
     PREFETCH_LINE(start, 64);
     PREFETCH_LINE(start, 128);
@@ -161,19 +153,14 @@ INLINE void step_leaf(
 
 // One step of every ray. `scene`: the cover of all rays but for the key, which each has of its own.
 // `any`: the first hit ends a ray (a constant: the compiler drops the rest).
-INLINE void stream_step(
-    RayStream* stream,
-    global const BvhNode* nodes,
-    global const TriangleBlock* blocks,
-    const Cover* scene,
-    const int any) {
+INLINE void stream_step(RayStream* stream, const Tree tree, const Cover* scene, const int any) {
     int at_node = 0;
     int at_leaf = stream->leaves;
     for (int k = 0; k < stream->nodes; ++k) {
         const int i = stream->at_node[k];
         StreamRay* ray = &stream->rays[i];
-        step_node(ray, nodes + ray->current, any);
-        const int leaf = fetch_next(ray, nodes, blocks);
+        step_node(ray, tree.nodes + ray->current, any);
+        const int leaf = fetch_next(ray, tree);
         stream->at_node[at_node] = i;
         stream->at_leaf[at_leaf] = i;
         at_node += 1 - leaf;
@@ -191,8 +178,8 @@ INLINE void stream_step(
             ++stream->ended;
             continue;
         }
-        step_leaf(ray, blocks + (ray->current & ~BVH_LEAF), scene, any);
-        const int leaf = fetch_next(ray, nodes, blocks);
+        step_leaf(ray, tree.blocks + (ray->current & ~BVH_LEAF), scene, any);
+        const int leaf = fetch_next(ray, tree);
         stream->at_node[at_node] = i;
         stream->at_leaf[at_leaf] = i;
         at_node += 1 - leaf;

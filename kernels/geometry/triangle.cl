@@ -7,6 +7,7 @@
 // and the paper's fallback to double, which asks for the exact sign, is not needed.
 #pragma once
 
+#include "geometry/ray.cl"
 #include "shared/bvh.h"
 #include "shared/inline.h"
 
@@ -17,25 +18,21 @@ typedef struct {
     int kx, ky, kz;    // where the axes are found in a vertex of a block: axis * 8
 } ShearedRay;
 
-INLINE ShearedRay shear_ray(
-    const float ox,
-    const float oy,
-    const float oz,
-    const float dx,
-    const float dy,
-    const float dz) {
-    const int z_wins = fabs(dz) >= max(fabs(dx), fabs(dy));
-    const int y_wins = !z_wins && fabs(dy) >= fabs(dx);
+INLINE ShearedRay shear_ray(const Ray* of) {
+    const Vec3 o = of->origin;
+    const Vec3 d = of->direction;
+    const int z_wins = fabs(d.z) >= max(fabs(d.x), fabs(d.y));
+    const int y_wins = !z_wins && fabs(d.y) >= fabs(d.x);
     ShearedRay ray;
     ray.kx = z_wins ? 0 : (y_wins ? 16 : 8);
     ray.ky = z_wins ? 8 : (y_wins ? 0 : 16);
     ray.kz = z_wins ? 16 : (y_wins ? 8 : 0);
-    ray.ox = z_wins ? ox : (y_wins ? oz : oy);
-    ray.oy = z_wins ? oy : (y_wins ? ox : oz);
-    ray.oz = z_wins ? oz : (y_wins ? oy : ox);
-    ray.sz = 1.0f / (z_wins ? dz : (y_wins ? dy : dx));
-    ray.sx = -ray.sz * (z_wins ? dx : (y_wins ? dz : dy));
-    ray.sy = -ray.sz * (z_wins ? dy : (y_wins ? dx : dz));
+    ray.ox = z_wins ? o.x : (y_wins ? o.z : o.y);
+    ray.oy = z_wins ? o.y : (y_wins ? o.x : o.z);
+    ray.oz = z_wins ? o.z : (y_wins ? o.y : o.x);
+    ray.sz = 1.0f / (z_wins ? d.z : (y_wins ? d.y : d.x));
+    ray.sx = -ray.sz * (z_wins ? d.x : (y_wins ? d.z : d.y));
+    ray.sy = -ray.sz * (z_wins ? d.y : (y_wins ? d.x : d.z));
     return ray;
 }
 
@@ -50,31 +47,30 @@ difference_of_products(const float8 a, const float8 b, const float8 c, const flo
     return fma(a, b, -rounded) - fma(c, d, -rounded);
 }
 
+// One corner of eight triangles.
+typedef struct {
+    float8 x, y, z;
+} Corners;
+
 // Lanes where the z axis meets the triangle a b c, sheared and moved to the ray's origin, at t > 0
 // (-1), and where: distances, barycentrics of corners 1 and 2.
 INLINE int8 intersect_sheared(
-    const float8 ax,
-    const float8 ay,
-    const float8 az,
-    const float8 bx,
-    const float8 by,
-    const float8 bz,
-    const float8 cx,
-    const float8 cy,
-    const float8 cz,
+    const Corners a,
+    const Corners b,
+    const Corners c,
     const float8 sz,
     float8* t,
     float8* u,
     float8* v) {
     // of the edges opposite corners 0, 1, 2
-    const float8 edge_a = difference_of_products(cx, by, cy, bx);
-    const float8 edge_b = difference_of_products(ax, cy, ay, cx);
-    const float8 edge_c = difference_of_products(bx, ay, by, ax);
+    const float8 edge_a = difference_of_products(c.x, b.y, c.y, b.x);
+    const float8 edge_b = difference_of_products(a.x, c.y, a.y, c.x);
+    const float8 edge_c = difference_of_products(b.x, a.y, b.y, a.x);
     const float8 lowest = min(edge_a, min(edge_b, edge_c));
     const float8 highest = max(edge_a, max(edge_b, edge_c));
     const float8 det = edge_a + edge_b + edge_c;  // where the signs agree, 0 only if all three are
     const float8 inverse = 1.0f / det;
-    *t = (edge_a * az + edge_b * bz + edge_c * cz) * (inverse * sz);
+    *t = (edge_a * a.z + edge_b * b.z + edge_c * c.z) * (inverse * sz);
     *u = edge_b * inverse;
     *v = edge_c * inverse;
     return ((lowest >= 0.0f) | (highest <= 0.0f)) & (det != 0.0f) & (*t > 0.0f);
@@ -88,18 +84,18 @@ INLINE int8 intersect_block(
     float8* t,
     float8* u,
     float8* v) {
-    global const float* a = &block->vertices[0][0][0];
-    global const float* b = &block->vertices[1][0][0];
-    global const float* c = &block->vertices[2][0][0];
-    const float8 az = vload8(0, a + ray->kz) - ray->oz;
-    const float8 bz = vload8(0, b + ray->kz) - ray->oz;
-    const float8 cz = vload8(0, c + ray->kz) - ray->oz;
-    const float8 ax = fma(az, (float8)(ray->sx), vload8(0, a + ray->kx) - ray->ox);
-    const float8 ay = fma(az, (float8)(ray->sy), vload8(0, a + ray->ky) - ray->oy);
-    const float8 bx = fma(bz, (float8)(ray->sx), vload8(0, b + ray->kx) - ray->ox);
-    const float8 by = fma(bz, (float8)(ray->sy), vload8(0, b + ray->ky) - ray->oy);
-    const float8 cx = fma(cz, (float8)(ray->sx), vload8(0, c + ray->kx) - ray->ox);
-    const float8 cy = fma(cz, (float8)(ray->sy), vload8(0, c + ray->ky) - ray->oy);
-    return intersect_sheared(ax, ay, az, bx, by, bz, cx, cy, cz, (float8)(ray->sz), t, u, v) &
-           (*t <= t_max);
+    global const float* first = &block->vertices[0][0][0];
+    global const float* second = &block->vertices[1][0][0];
+    global const float* third = &block->vertices[2][0][0];
+    Corners a, b, c;
+    a.z = vload8(0, first + ray->kz) - ray->oz;
+    b.z = vload8(0, second + ray->kz) - ray->oz;
+    c.z = vload8(0, third + ray->kz) - ray->oz;
+    a.x = fma(a.z, (float8)(ray->sx), vload8(0, first + ray->kx) - ray->ox);
+    a.y = fma(a.z, (float8)(ray->sy), vload8(0, first + ray->ky) - ray->oy);
+    b.x = fma(b.z, (float8)(ray->sx), vload8(0, second + ray->kx) - ray->ox);
+    b.y = fma(b.z, (float8)(ray->sy), vload8(0, second + ray->ky) - ray->oy);
+    c.x = fma(c.z, (float8)(ray->sx), vload8(0, third + ray->kx) - ray->ox);
+    c.y = fma(c.z, (float8)(ray->sy), vload8(0, third + ray->ky) - ray->oy);
+    return intersect_sheared(a, b, c, (float8)(ray->sz), t, u, v) & (*t <= t_max);
 }

@@ -29,22 +29,30 @@ INLINE uint branch_child(const uint parent, const uint children, const uint left
     return HAS_MEDIA ? hash_pair(parent, left) : parent * children + left;
 }
 
+// A path that may branch: its slot, and the planes that a record keeps some of.
+typedef struct {
+    size_t stride, slot;
+    global const float* rays;
+    global float* hits;
+    global const float* throughputs;
+    global const float* path_media;
+    global uint* ids;
+    global float* branches;
+} BranchingPath;
+
 // Opens the record `level` of a path with `stacked` records for `children` of what it is at: all
 // but BRANCH_LEFT and what a child carries. `t` and `origin`: planes BRANCH_T and BRANCH_ORIGIN_X.
 INLINE void open_branch(
-    global float* branches,
-    const size_t stride,
-    const size_t slot,
+    const BranchingPath* path,
     const uint level,
     const uint stacked,
     const float t,
     const uint children,
-    const Vec3 origin,
-    global const float* rays,
-    global const float* hits,
-    global const float* throughputs,
-    global const float* path_media,
-    global uint* ids) {
+    const Vec3 origin) {
+    const size_t stride = path->stride;
+    const size_t slot = path->slot;
+    global float* branches = path->branches;
+    global uint* ids = path->ids;
     // the segment before a vertex did not branch
     if (level > stacked)
         PLANE(branch_at(branches, stride, stacked), BRANCH_LEFT)[slot] = as_float(0);
@@ -54,20 +62,20 @@ INLINE void open_branch(
     PLANE(ids, ID_SHARES)[slot] = as_uint(shares);
     PLANE(branch, BRANCH_ID)[slot] = as_float(PLANE(ids, ID_BRANCH)[slot]);
     PLANE(branch, BRANCH_SHARES)[slot] = shares;
-    PLANE(branch, BRANCH_PRIMITIVE)[slot] = PLANE(hits, HIT_PRIMITIVE)[slot];
-    PLANE(branch, BRANCH_U)[slot] = PLANE(hits, HIT_U)[slot];
-    PLANE(branch, BRANCH_V)[slot] = PLANE(hits, HIT_V)[slot];
+    PLANE(branch, BRANCH_PRIMITIVE)[slot] = PLANE(path->hits, HIT_PRIMITIVE)[slot];
+    PLANE(branch, BRANCH_U)[slot] = PLANE(path->hits, HIT_U)[slot];
+    PLANE(branch, BRANCH_V)[slot] = PLANE(path->hits, HIT_V)[slot];
     store3(
         PLANE(branch, BRANCH_DIRECTION_X), stride, slot,
-        load3(PLANE(rays, RAY_DIRECTION_X), stride, slot));
+        load3(PLANE(path->rays, RAY_DIRECTION_X), stride, slot));
     if (!HAS_MEDIA) return;
     PLANE(branch, BRANCH_SCATTERING)[slot] = as_float(PLANE(ids, ID_SCATTERING)[slot]);
     PLANE(branch, BRANCH_T)[slot] = t;
     store3(PLANE(branch, BRANCH_ORIGIN_X), stride, slot, origin);
-    PLANE(branch, BRANCH_PDF)[slot] = PLANE(throughputs, THROUGHPUT_PDF)[slot];
+    PLANE(branch, BRANCH_PDF)[slot] = PLANE(path->throughputs, THROUGHPUT_PDF)[slot];
 #pragma unroll  // a loop keeps the whole stage scalar on PoCL
     for (int k = 0; k < MEDIUM_PLANES_USED; ++k)
-        PLANE(branch, BRANCH_MEDIA + k)[slot] = PLANE(path_media, k)[slot];
+        PLANE(branch, BRANCH_MEDIA + k)[slot] = PLANE(path->path_media, k)[slot];
 }
 
 typedef struct {
@@ -75,22 +83,16 @@ typedef struct {
     uint branch;   // ID_BRANCH
 } Child;
 
-// The next child of the vertex at `position` that the slot's path is at, if it is one of the first
-// and branches into `children`; else the path itself.
+// The next child of the vertex at `position` that the path is at, if it is one of the first
+// `split_depth` and branches into `children`; else the path itself.
 INLINE Child next_child(
-    global float* branches,
-    const size_t stride,
-    const size_t slot,
-    const uint split_depth,
-    const uint children,
-    const Vec3 position,
-    global const float* rays,
-    global float* hits,
-    global const float* throughputs,
-    global const float* path_media,
-    global uint* ids) {
+    const BranchingPath* path, const uint split_depth, const uint children, const Vec3 position) {
+    const size_t stride = path->stride;
+    const size_t slot = path->slot;
+    global float* hits = path->hits;
+    global uint* ids = path->ids;
     Child child;
-    child.carried = load3(PLANE(throughputs, THROUGHPUT_R), stride, slot);
+    child.carried = load3(PLANE(path->throughputs, THROUGHPUT_R), stride, slot);
     child.branch = 0;
     if (!HAS_SPLITS) return child;
     child.branch = PLANE(ids, ID_BRANCH)[slot];
@@ -99,14 +101,12 @@ INLINE Child next_child(
     const uint level = resumed ? stacked - 1 : vertex_level(stacked);
     PLANE(hits, HIT_T)[slot] = 0.0f;
     if (level >= BRANCH_LEVELS * split_depth) return child;
-    global float* vertex = branch_at(branches, stride, level);
+    global float* vertex = branch_at(path->branches, stride, level);
     uint left = as_uint(PLANE(vertex, BRANCH_LEFT)[slot]);
     if (!resumed) {
         left = children;
         child.carried = scale3(child.carried, 1.0f / (float)children);
-        open_branch(
-            branches, stride, slot, level, stacked, T_RESUMED, children, position, rays, hits,
-            throughputs, path_media, ids);
+        open_branch(path, level, stacked, T_RESUMED, children, position);
         store3(PLANE(vertex, BRANCH_R), stride, slot, child.carried);
     }
     PLANE(vertex, BRANCH_LEFT)[slot] = as_float(left - 1);

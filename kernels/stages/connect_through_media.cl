@@ -58,8 +58,9 @@ kernel void connect_through_media(
     if (slot >= slots) return;
     const float t_max = open_connection(shadows, fates, stride, slot);
     if (t_max <= 0.0f) return;
-    const Vec3 origin = load3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot);
-    const Vec3 direction = load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot);
+    const Tree tree = make_tree(nodes, blocks);
+    const Ray ray = load_shadow_ray(shadows, stride, slot, t_max);
+    const Vec3 direction = ray.direction;
     const float length = sqrt(dot3(direction, direction));
     const int leaves = length > 0.5f * OUTSIDE_SCENE;
     uint stack = HAS_MEDIA ? as_uint(PLANE(shadows, SHADOW_MEDIA)[slot]) : 0;
@@ -69,9 +70,7 @@ kernel void connect_through_media(
     const Cover cover =
         ray_cover(TEXTURES, triangles, HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
     for (;;) {
-        const Hit hit = closest_hit(
-            nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-            t_max, start, holes_in(&cover));
+        const Hit hit = closest_hit(tree, &ray, start, holes_in(&cover));
         global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * max(hit.primitive, 0);
         global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
         Vec3 straight = vec3(0.0f, 0.0f, 0.0f);
@@ -91,8 +90,7 @@ kernel void connect_through_media(
         if (ends) {
             const int lamp = LAMPS_ON_LAMPS ? as_int(PLANE(shadows, SHADOW_LAMP)[slot]) : -1;
             if (lamp >= 0 && hit.primitive >= 0) {
-                const Hit shown =
-                    shown_face(nodes, blocks, &cover, materials, origin, direction, length, hit);
+                const Hit shown = shown_face(tree, &cover, materials, ray, length, hit);
                 triangle = triangles + (size_t)TRIANGLE_FLOATS * shown.primitive;
                 if (shown.primitive < lamp && emits_towards(triangle, materials, direction)) return;
             }

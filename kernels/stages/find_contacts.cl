@@ -47,15 +47,17 @@ kernel void find_contacts(
         if (!HAS_LAMP_CONTACTS) return;
         if (as_uint(triangle[TRIANGLE_LIGHT]) == NO_LIGHT) return;
     }
-    const Vec3 origin = load3(PLANE(rays, RAY_ORIGIN_X), stride, slot);
-    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+    const Tree tree = make_tree(nodes, blocks);
+    Ray ray = load_ray(rays, stride, slot);
+    const Vec3 direction = ray.direction;
     const Cover cover =
         ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
     const uint key = PARTIAL_BOUNDARIES ? share_key(ids, rays, stride, slot) : 0;
     if (material->boundary == BOUNDARY_DIELECTRIC)
         is_opaque = !boundary_is_met(&cover, materials, key, &shown);
     if (!HAS_LAMP_CONTACTS && is_opaque) return;
-    float end = shown.t + touching_distance(triangle, madd3(origin, direction, shown.t), direction);
+    ray.t_max =
+        shown.t + touching_distance(triangle, madd3(ray.origin, direction, shown.t), direction);
     uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
     Vec3 tint = vec3(1.0f, 1.0f, 1.0f);
     if (material->boundary == BOUNDARY_DIELECTRIC && !is_opaque) {
@@ -65,9 +67,7 @@ kernel void find_contacts(
     }
     RayStart start = ray_start(shown.t, shown.primitive);
     while (!is_opaque) {
-        const Hit hit = closest_hit(
-            nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, end,
-            start, holes_in(&cover));
+        const Hit hit = closest_hit(tree, &ray, start, holes_in(&cover));
         if (hit.primitive < 0) break;
         start = ray_start(hit.t, hit.primitive);
         triangle = triangles + (size_t)TRIANGLE_FLOATS * hit.primitive;
@@ -80,7 +80,8 @@ kernel void find_contacts(
         if (is_opaque) break;
         if (replaces) {
             is_wall = 0;
-            end = hit.t + touching_distance(triangle, madd3(origin, direction, hit.t), direction);
+            ray.t_max =
+                hit.t + touching_distance(triangle, madd3(ray.origin, direction, hit.t), direction);
         }
         const uint crossed = cross_boundary(stack, material->medium, triangle, direction);
         tint = scale3(tint, weight_of_crossing(stack, crossed, material->medium));
@@ -88,7 +89,7 @@ kernel void find_contacts(
         stack = crossed;
     }
     if (HAS_LAMP_CONTACTS && is_opaque)
-        shown = shown_face(nodes, blocks, &cover, materials, origin, direction, 1.0f, shown);
+        shown = shown_face(tree, &cover, materials, ray, 1.0f, shown);
     store_hit(hits, stride, slot, &shown);
     if (!HAS_MEDIA) return;
     PLANE(path_media, CONTACT_MEDIA)[slot] = as_float(stack);

@@ -42,18 +42,10 @@ INLINE int has_ray(global const float* hits, const size_t stride, const size_t s
 }
 
 // What lies behind a hit: `next`, or what a ray finds where that is not known, 0.
-INLINE Hit hit_behind(
-    const Hit* hit,
-    const Hit* next,
-    global const BvhNode* nodes,
-    global const TriangleBlock* blocks,
-    const Vec3 origin,
-    const Vec3 direction,
-    const Cover* cover) {
+INLINE Hit
+hit_behind(const Hit* hit, const Hit* next, const Tree tree, const Ray* ray, const Cover* cover) {
     if (next) return *next;
-    return closest_hit(
-        nodes, blocks, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z,
-        INFINITY, ray_start(hit->t, hit->primitive), holes_in(cover));
+    return closest_hit(tree, ray, ray_start(hit->t, hit->primitive), holes_in(cover));
 }
 
 // Stores the hit, or what lies behind the boundaries that the ray passes at once. `next`: what lies
@@ -61,9 +53,7 @@ INLINE Hit hit_behind(
 INLINE void pass_clear_boundaries(
     const size_t stride,
     const size_t slot,
-    global const BvhNode* nodes,
-    global const TriangleBlock* blocks,
-    global const float* triangles,
+    const Tree tree,
     global const DeviceMaterial* materials,
     const Cover* cover,
     global const float* rays,
@@ -71,26 +61,26 @@ INLINE void pass_clear_boundaries(
     const Hit* next,
     global float* path_media,
     global float* hits) {
-    const Vec3 origin = load3(PLANE(rays, RAY_ORIGIN_X), stride, slot);
-    const Vec3 direction = load3(PLANE(rays, RAY_DIRECTION_X), stride, slot);
+    const Ray ray = load_ray(rays, stride, slot);
+    global const float* triangles = cover->triangles;
     uint stack = HAS_MEDIA ? as_uint(PLANE(path_media, MEDIUM_STACK)[slot]) : 0;
     while (HAS_MEDIA) {
         const uint medium = clear_medium(triangles, materials, hit.primitive);
         if (medium == 0) break;
         global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * hit.primitive;
-        const uint crossed = cross_boundary(stack, medium, triangle, direction);
+        const uint crossed = cross_boundary(stack, medium, triangle, ray.direction);
         // Two calls, since LLVM 18 as PoCL 6.0 runs it gives up on one that both cases share.
         if (stack != 0) {
             if (crossed != 0 || HAS_SPLITS) break;
-            const Hit behind = hit_behind(&hit, next, nodes, blocks, origin, direction, cover);
+            const Hit behind = hit_behind(&hit, next, tree, &ray, cover);
             if (behind.primitive < 0) hit.primitive = HIT_LEAVING;
             break;
         }
-        const Hit behind = hit_behind(&hit, next, nodes, blocks, origin, direction, cover);
+        const Hit behind = hit_behind(&hit, next, tree, &ray, cover);
         next = 0;
         go_on_behind(
             path_media, stride, slot, stack, crossed, hit.t, hit.primitive,
-            touching_distance(triangle, madd3(origin, direction, hit.t), direction));
+            touching_distance(triangle, madd3(ray.origin, ray.direction, hit.t), ray.direction));
         stack = crossed;
         hit = behind;
     }
@@ -101,10 +91,8 @@ INLINE void intersect_packets(
     const size_t stride,
     uint slot,
     const uint end,
-    global const BvhNode* nodes,
-    global const TriangleBlock* blocks,
+    const Tree tree,
     global const SmallMesh* mesh,
-    global const float* triangles,
     global const DeviceMaterial* materials,
     const Cover* cover,
     global const float* rays,
@@ -115,10 +103,8 @@ INLINE void intersect_packets(
     while (slot < end) {
         for (; slot < end && packet_has_room(&packet); ++slot) {
             if (!has_ray(hits, stride, slot)) continue;
-            packet_add(
-                &packet, slot, load3(PLANE(rays, RAY_ORIGIN_X), stride, slot),
-                load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), INFINITY,
-                load_start(path_media, stride, slot));
+            const Ray ray = load_ray(rays, stride, slot);
+            packet_add(&packet, slot, &ray, load_start(path_media, stride, slot));
         }
         if (packet.count == 0) break;
         PacketHits nearest, behind;
@@ -126,8 +112,8 @@ INLINE void intersect_packets(
         for (int k = 0; k < packet.count; ++k) {
             const Hit next = hit_of_lane(&behind, k);
             pass_clear_boundaries(
-                stride, packet.item[k], nodes, blocks, triangles, materials, cover, rays,
-                hit_of_lane(&nearest, k), HAS_MATCHED_MEDIA ? &next : 0, path_media, hits);
+                stride, packet.item[k], tree, materials, cover, rays, hit_of_lane(&nearest, k),
+                HAS_MATCHED_MEDIA ? &next : 0, path_media, hits);
         }
         packet.count = 0;
     }
@@ -137,8 +123,7 @@ INLINE void intersect_stream(
     const size_t stride,
     uint slot,
     const uint end,
-    global const BvhNode* nodes,
-    global const TriangleBlock* blocks,
+    const Tree tree,
     const Cover* cover,
     global const float* rays,
     global const float* path_media,
@@ -149,15 +134,15 @@ INLINE void intersect_stream(
     do {
         for (; slot < end && stream_has_room(&stream); ++slot) {
             if (!has_ray(hits, stride, slot)) continue;
+            const Ray ray = load_ray(rays, stride, slot);
             stream_add(
-                &stream, slot, load3(PLANE(rays, RAY_ORIGIN_X), stride, slot),
-                load3(PLANE(rays, RAY_DIRECTION_X), stride, slot), INFINITY,
-                load_start(path_media, stride, slot), HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
+                &stream, slot, &ray, load_start(path_media, stride, slot),
+                HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
         }
-        stream_step(&stream, nodes, blocks, cover, 0);
+        stream_step(&stream, tree, cover, 0);
         for (int k = 0; k < stream.ended; ++k) {
-            const StreamRay* ray = stream_ended(&stream, k);
-            store_hit(hits, stride, ray->item, &ray->hit);
+            const StreamRay* ended = stream_ended(&stream, k);
+            store_hit(hits, stride, ended->item, &ended->hit);
         }
     } while (slot < end || stream_busy(&stream));
 }
@@ -181,20 +166,16 @@ kernel void intersect(
     const uint end = min(slots, slot + RAYS_PER_ITEM);
     const Cover cover =
         ray_cover(TEXTURES, triangles, HAS_ALPHA ? cover_key(ids, stride, slot) : 0);
+    const Tree tree = make_tree(nodes, blocks);
     if (RAY_PACKETS) {
-        intersect_packets(
-            stride, slot, end, nodes, blocks, mesh, triangles, materials, &cover, rays, path_media,
-            hits);
+        intersect_packets(stride, slot, end, tree, mesh, materials, &cover, rays, path_media, hits);
     } else if (RAYS_PER_ITEM > 1) {
-        intersect_stream(stride, slot, end, nodes, blocks, &cover, rays, path_media, ids, hits);
+        intersect_stream(stride, slot, end, tree, &cover, rays, path_media, ids, hits);
     } else if (has_ray(hits, stride, slot)) {
-        const Hit hit = closest_hit(
-            nodes, blocks, PLANE(rays, RAY_ORIGIN_X)[slot], PLANE(rays, RAY_ORIGIN_Y)[slot],
-            PLANE(rays, RAY_ORIGIN_Z)[slot], PLANE(rays, RAY_DIRECTION_X)[slot],
-            PLANE(rays, RAY_DIRECTION_Y)[slot], PLANE(rays, RAY_DIRECTION_Z)[slot], INFINITY,
-            load_start(path_media, stride, slot), holes_in(&cover));
+        const Ray ray = load_ray(rays, stride, slot);
+        const Hit hit =
+            closest_hit(tree, &ray, load_start(path_media, stride, slot), holes_in(&cover));
         pass_clear_boundaries(
-            stride, slot, nodes, blocks, triangles, materials, &cover, rays, hit, 0, path_media,
-            hits);
+            stride, slot, tree, materials, &cover, rays, hit, 0, path_media, hits);
     }
 }

@@ -34,9 +34,8 @@ INLINE void connect_packets(
         for (; slot < end && packet_has_room(&packet); ++slot) {
             const float t_max = open_connection(shadows, fates, stride, slot);
             if (t_max <= 0.0f) continue;
-            packet_add(
-                &packet, slot, load3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot),
-                load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot), t_max, at_origin());
+            const Ray ray = load_shadow_ray(shadows, stride, slot, t_max);
+            packet_add(&packet, slot, &ray, at_origin());
         }
         if (packet.count == 0) break;
         const uint blocked = any_of_packet(mesh, &packet);
@@ -51,8 +50,7 @@ INLINE void connect_stream(
     const size_t stride,
     uint slot,
     const uint end,
-    global const BvhNode* nodes,
-    global const TriangleBlock* blocks,
+    const Tree tree,
     const Cover* cover,
     global const float* shadows,
     global const uint* ids,
@@ -64,15 +62,15 @@ INLINE void connect_stream(
         for (; slot < end && stream_has_room(&stream); ++slot) {
             const float t_max = open_connection(shadows, fates, stride, slot);
             if (t_max <= 0.0f) continue;
+            const Ray ray = load_shadow_ray(shadows, stride, slot, t_max);
             stream_add(
-                &stream, slot, load3(PLANE(shadows, SHADOW_ORIGIN_X), stride, slot),
-                load3(PLANE(shadows, SHADOW_DIRECTION_X), stride, slot), t_max, at_origin(),
+                &stream, slot, &ray, at_origin(),
                 HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
         }
-        stream_step(&stream, nodes, blocks, cover, 1);
+        stream_step(&stream, tree, cover, 1);
         for (int k = 0; k < stream.ended; ++k) {
-            const StreamRay* ray = stream_ended(&stream, k);
-            if (ray->hit.primitive < 0) add_connection(shadows, radiances, stride, ray->item);
+            const StreamRay* ended = stream_ended(&stream, k);
+            if (ended->hit.primitive < 0) add_connection(shadows, radiances, stride, ended->item);
         }
     } while (slot < end || stream_busy(&stream));
 }
@@ -80,20 +78,15 @@ INLINE void connect_stream(
 INLINE void connect_alone(
     const size_t stride,
     const uint slot,
-    global const BvhNode* nodes,
-    global const TriangleBlock* blocks,
+    const Tree tree,
     const Cover* cover,
     global const float* shadows,
     global float* radiances,
     global uchar* fates) {
     const float t_max = open_connection(shadows, fates, stride, slot);
     if (t_max <= 0.0f) return;
-    const int blocked = any_hit(
-        nodes, blocks, PLANE(shadows, SHADOW_ORIGIN_X)[slot], PLANE(shadows, SHADOW_ORIGIN_Y)[slot],
-        PLANE(shadows, SHADOW_ORIGIN_Z)[slot], PLANE(shadows, SHADOW_DIRECTION_X)[slot],
-        PLANE(shadows, SHADOW_DIRECTION_Y)[slot], PLANE(shadows, SHADOW_DIRECTION_Z)[slot], t_max,
-        holes_in(cover));
-    if (!blocked) add_connection(shadows, radiances, stride, slot);
+    const Ray ray = load_shadow_ray(shadows, stride, slot, t_max);
+    if (!any_hit(tree, &ray, holes_in(cover))) add_connection(shadows, radiances, stride, slot);
 }
 
 kernel void occlusion(
@@ -114,10 +107,11 @@ kernel void occlusion(
     const uint end = min(slots, slot + RAYS_PER_ITEM);
     const Cover cover =
         ray_cover(TEXTURES, triangles, HAS_ALPHA ? shadow_cover_key(ids, stride, slot) : 0);
+    const Tree tree = make_tree(nodes, blocks);
     if (RAY_PACKETS)
         connect_packets(stride, slot, end, mesh, shadows, radiances, fates);
     else if (RAYS_PER_ITEM > 1)
-        connect_stream(stride, slot, end, nodes, blocks, &cover, shadows, ids, radiances, fates);
+        connect_stream(stride, slot, end, tree, &cover, shadows, ids, radiances, fates);
     else
-        connect_alone(stride, slot, nodes, blocks, &cover, shadows, radiances, fates);
+        connect_alone(stride, slot, tree, &cover, shadows, radiances, fates);
 }

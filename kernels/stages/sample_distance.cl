@@ -84,9 +84,9 @@ kernel void sample_distance(
         if (branching) {
             global float* segment = branch_at(branches, stride, level);
             if (!resumed) {
-                open_branch(
-                    branches, stride, slot, level, stacked, -end, 1, origin, rays, hits,
-                    throughputs, path_media, ids);
+                const BranchingPath path = {stride,      slot,       rays, hits,
+                                            throughputs, path_media, ids,  branches};
+                open_branch(&path, level, stacked, -end, 1, origin);
                 store3(PLANE(segment, BRANCH_R), stride, slot, throughput);
             }
             const uint left =

@@ -40,9 +40,8 @@ kernel void sample_indirect(
     const uint index = PLANE(ids, ID_INDEX)[slot];
     const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
     const Vec3 position = load3(PLANE(surfaces, SURFACE_X), stride, slot);
-    const Child child = next_child(
-        branches, stride, slot, params.split_depth, params.splits, position, rays, hits,
-        throughputs, path_media, ids);
+    const BranchingPath path = {stride, slot, rays, hits, throughputs, path_media, ids, branches};
+    const Child child = next_child(&path, params.split_depth, params.splits, position);
     Sample2 u = unit_pair(scattering_pair(seed, index, child.branch, scattering, PAIR_DIRECTION));
     float choice = 0.0f;
     if (HAS_SPECULAR)

@@ -34,9 +34,8 @@ kernel void scatter_medium(
     const uint innermost = innermost_medium(as_uint(PLANE(path_media, MEDIUM_STACK)[slot]));
     const uint scattering = PLANE(ids, ID_SCATTERING)[slot];
     const Vec3 position = load3(PLANE(surfaces, SURFACE_X), stride, slot);
-    const Child child = next_child(
-        branches, stride, slot, params.split_depth, params.stop_directions, position, rays, hits,
-        throughputs, path_media, ids);
+    const BranchingPath path = {stride, slot, rays, hits, throughputs, path_media, ids, branches};
+    const Child child = next_child(&path, params.split_depth, params.stop_directions, position);
     Sample2 u = unit_pair(scattering_pair(
         PLANE(ids, ID_SEED)[slot], PLANE(ids, ID_INDEX)[slot], child.branch, scattering,
         PAIR_DIRECTION));

@@ -44,9 +44,10 @@ INLINE void stream_rays(
     do {
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
-            stream_add(&stream, i, vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6], at_origin(), 0);
+            const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
+            stream_add(&stream, i, &ray, at_origin(), 0);
         }
-        stream_step(&stream, nodes, blocks, &cover, any);
+        stream_step(&stream, make_tree(nodes, blocks), &cover, any);
         for (int k = 0; k < stream.ended; ++k) {
             const StreamRay* ray = stream_ended(&stream, k);
             if (any)
@@ -64,8 +65,8 @@ kernel void closest(
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
-        hits[i] = closest_hit(
-            nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
+        const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
+        hits[i] = closest_hit(make_tree(nodes, blocks), &ray, at_origin(), 0);
         return;
     }
     stream_rays(count, rays, nodes, blocks, hits, i, 0);
@@ -78,7 +79,8 @@ kernel void blocked(
     if (i >= count) return;
     if (RAYS_PER_ITEM == 1) {
         global const float* r = rays + 8 * i;
-        hits[i].primitive = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], 0) - 1;
+        const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
+        hits[i].primitive = any_hit(make_tree(nodes, blocks), &ray, 0) - 1;
         return;
     }
     stream_rays(count, rays, nodes, blocks, hits, i, 1);

@@ -27,8 +27,8 @@ kernel void closest(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
-    out[i] = closest_hit(
-        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
+    const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
+    out[i] = closest_hit(make_tree(nodes, blocks), &ray, at_origin(), 0);
 }
 
 kernel void blocked(
@@ -37,7 +37,8 @@ kernel void blocked(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
-    out[i] = any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], 0);
+    const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
+    out[i] = any_hit(make_tree(nodes, blocks), &ray, 0);
 }
 )");
     return instance;

@@ -30,9 +30,10 @@ kernel void closest(
     while (i < end) {
         for (; i < end && packet_has_room(&packet); ++i) {
             global const float* r = rays + 8 * i;
+            const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
             if (r[6] < 0.0f) continue;
             packet_add(
-                &packet, i, vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6], ray_start(r[7], 4));
+                &packet, i, &ray, ray_start(r[7], 4));
         }
         PacketHits nearest, next;
         closest_of_packet(mesh, &packet, &nearest, &next);
@@ -53,8 +54,9 @@ kernel void blocked(
     while (i < end) {
         for (; i < end && packet_has_room(&packet); ++i) {
             global const float* r = rays + 8 * i;
+            const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
             if (r[6] < 0.0f) continue;
-            packet_add(&packet, i, vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6], at_origin());
+            packet_add(&packet, i, &ray, at_origin());
         }
         const uint blocked = any_of_packet(mesh, &packet);
         for (int k = 0; k < packet.count; ++k)
@@ -69,14 +71,12 @@ kernel void alone(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
+    const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
     if (r[6] < 0.0f) return;
-    out[2 * i] = closest_hit(
-        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], ray_start(r[7], 4), 0);
+    out[2 * i] = closest_hit(make_tree(nodes, blocks), &ray, ray_start(r[7], 4), 0);
     out[2 * i + 1] = out[2 * i];
     if (out[2 * i].primitive >= 0)
-        out[2 * i + 1] = closest_hit(
-            nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6],
-            ray_start(out[2 * i].t, out[2 * i].primitive), 0);
+        out[2 * i + 1] = closest_hit(make_tree(nodes, blocks), &ray, ray_start(out[2 * i].t, out[2 * i].primitive), 0);
 }
 
 kernel void blocked_alone(
@@ -85,9 +85,10 @@ kernel void blocked_alone(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
+    const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
     if (r[6] < 0.0f) return;
     out[2 * i].primitive =
-        any_hit(nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], 0);
+        any_hit(make_tree(nodes, blocks), &ray, 0);
 }
 )",
         "#define HAS_ALPHA 0\n");

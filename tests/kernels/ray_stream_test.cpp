@@ -30,10 +30,11 @@ void trace(
     do {
         for (; i < end && stream_has_room(&stream); ++i) {
             global const float* r = rays + 8 * i;
+            const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
             if (r[6] < 0.0f) continue;
-            stream_add(&stream, i, vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6], at_origin(), 0);
+            stream_add(&stream, i, &ray, at_origin(), 0);
         }
-        stream_step(&stream, nodes, blocks, &cover, any);
+        stream_step(&stream, make_tree(nodes, blocks), &cover, any);
         for (int k = 0; k < stream.ended; ++k) out[stream_ended(&stream, k)->item] = stream_ended(&stream, k)->hit;
     } while (i < end || stream_busy(&stream));
 }
@@ -56,9 +57,9 @@ kernel void alone(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 8 * i;
+    const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), r[6]);
     if (r[6] < 0.0f) return;
-    out[i] = closest_hit(
-        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], r[6], at_origin(), 0);
+    out[i] = closest_hit(make_tree(nodes, blocks), &ray, at_origin(), 0);
 }
 )",
         "#define RAYS_PER_ITEM 50\n");

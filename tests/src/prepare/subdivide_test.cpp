@@ -116,8 +116,8 @@ kernel void meet(
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
     global const float* r = rays + 6 * i;
-    out[i] = closest_hit(
-        nodes, blocks, r[0], r[1], r[2], r[3], r[4], r[5], INFINITY, at_origin(), 0);
+    const Ray ray = make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5]), INFINITY);
+    out[i] = closest_hit(make_tree(nodes, blocks), &ray, at_origin(), 0);
 }
 )";
 
