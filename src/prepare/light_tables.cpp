@@ -194,12 +194,27 @@ class EmissionShares {
     std::map<uint32_t, TextureLuminance> known_;
 };
 
-}  // namespace
+DeviceLight triangle_light(const Material& material, std::size_t triangle, double area) {
+    DeviceLight light{};
+    light.kind = LIGHT_TRIANGLE;
+    light.primitive = static_cast<uint32_t>(triangle);
+    light.double_sided = material.double_sided ? 1 : 0;
+    light.intensity_r = material.emission[0];
+    light.intensity_g = material.emission[1];
+    light.intensity_b = material.emission[2];
+    light.area = static_cast<float>(area);
+    return light;
+}
 
-LightTables build_light_tables(
-    const Scene& scene, const NormalisedScene& geometry, LightChoice choice, bool alone) {
-    LightTables tables;
-    std::vector<double> weights;
+// Lights are added to `tables` with their weights in the choice among them.
+using Weights = std::vector<double>;
+
+void add_triangle_lights(
+    const Scene& scene,
+    const NormalisedScene& geometry,
+    LightChoice choice,
+    LightTables& tables,
+    Weights& weights) {
     tables.triangle_lights.assign(geometry.triangle_count(), NO_LIGHT);
     double area = 0;
     EmissionShares shares(scene);
@@ -208,14 +223,7 @@ LightTables build_light_tables(
         if (!material.emits()) continue;
         const double share = shares.of_triangle(geometry, t);
         if (share == 0) continue;
-        DeviceLight light{};
-        light.kind = LIGHT_TRIANGLE;
-        light.primitive = static_cast<uint32_t>(t);
-        light.double_sided = material.double_sided ? 1 : 0;
-        light.intensity_r = material.emission[0];
-        light.intensity_g = material.emission[1];
-        light.intensity_b = material.emission[2];
-        light.area = static_cast<float>(triangle_area(geometry.positions, t));
+        const DeviceLight light = triangle_light(material, t, triangle_area(geometry.positions, t));
         tables.triangle_lights[t] = static_cast<uint32_t>(tables.lights.size());
         tables.lights.push_back(light);
         const double sides = material.double_sided ? 2 : 1;
@@ -226,7 +234,10 @@ LightTables build_light_tables(
     }
     if (choice == LightChoice::area)
         for (double& weight : weights) weight /= area;
+}
 
+void add_punctual_lights(
+    const NormalisedScene& geometry, LightChoice choice, LightTables& tables, Weights& weights) {
     for (const PunctualLight& light : geometry.lights) {
         tables.lights.push_back(punctual_light(light));
         const bool is_somewhere = light.kind != LightKind::directional;
@@ -234,25 +245,39 @@ LightTables build_light_tables(
             geometry.is_far() && is_somewhere ? share_of_power(light.position) : 1.0;
         weights.push_back(choice == LightChoice::power ? share * punctual_power(light) : 1.0);
     }
-    if (scene.environment) {
-        const Environment& environment = *scene.environment;
-        double mean = luminance(environment.radiance);
-        if (environment.width > 0) {
-            const double of_map = mean_luminance(environment);
-            mean *= of_map;
-            tables.environment_left = alone ? 0.0F : static_cast<float>(of_map);
-            tables.environment = entries_of(environment, tables.environment_left);
-        }
-        if (environment.width > 0 || alone) {
-            DeviceLight light{};
-            light.kind = LIGHT_ENVIRONMENT;
-            tables.lights.push_back(light);
-            const double power =
-                4 * std::numbers::pi * std::numbers::pi * scene_radius * scene_radius * mean;
-            weights.push_back(choice == LightChoice::power ? power : 1.0);
-        }
-    }
+}
 
+void add_environment(
+    const Environment& environment,
+    LightChoice choice,
+    bool alone,
+    LightTables& tables,
+    Weights& weights) {
+    double mean = luminance(environment.radiance);
+    if (environment.width > 0) {
+        const double of_map = mean_luminance(environment);
+        mean *= of_map;
+        tables.environment_left = alone ? 0.0F : static_cast<float>(of_map);
+        tables.environment = entries_of(environment, tables.environment_left);
+    }
+    if (environment.width == 0 && !alone) return;
+    DeviceLight light{};
+    light.kind = LIGHT_ENVIRONMENT;
+    tables.lights.push_back(light);
+    const double power =
+        4 * std::numbers::pi * std::numbers::pi * scene_radius * scene_radius * mean;
+    weights.push_back(choice == LightChoice::power ? power : 1.0);
+}
+
+}  // namespace
+
+LightTables build_light_tables(
+    const Scene& scene, const NormalisedScene& geometry, LightChoice choice, bool alone) {
+    LightTables tables;
+    Weights weights;
+    add_triangle_lights(scene, geometry, choice, tables, weights);
+    add_punctual_lights(geometry, choice, tables, weights);
+    if (scene.environment) add_environment(*scene.environment, choice, alone, tables, weights);
     const std::vector<AliasRow> table = build_alias_table(weights);
     for (std::size_t i = 0; i < table.size(); ++i) {
         DeviceLight& light = tables.lights[i];

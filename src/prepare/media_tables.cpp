@@ -133,27 +133,10 @@ uint32_t row_of(const DeviceMedium& medium, std::vector<DeviceMedium>& media) {
     return row;
 }
 
-}  // namespace
-
-MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geometry) {
-    MediaTables tables;
-    tables.rows.assign(scene.materials.size(), 0);
-    tables.bodies = bodies_with_media(scene, geometry);
+// Throws Error for bodies that are inside out or stand in too many others; warns of those that a
+// ray may enter and never leave.
+void check_bodies(const Scene& scene, MediaTables& tables) {
     const std::vector<MediaBody>& bodies = tables.bodies;
-    for (const MediaBody& body : bodies)
-        for (const uint32_t m : body.boundaries) {
-            if (tables.rows[m] > 0) continue;
-            const Material& material = scene.materials[m];
-            const Medium& medium = material.medium;
-            if (auto dense = warning_of_extinction(scene, m, geometry.extent.metres);
-                !dense.empty())
-                tables.warnings.push_back(std::move(dense));
-            tables.rows[m] = row_of(device_medium(scene, m, geometry.extent.metres), tables.media);
-            tables.refract = tables.refract || material.boundary == Boundary::dielectric;
-            tables.refract_roughly = tables.refract_roughly || refracts_roughly(material);
-            tables.scatter = tables.scatter || medium.scatters();
-            tables.emit = tables.emit || medium.emits();
-        }
     std::vector<std::string> patched;
     std::vector<std::string> open;
     std::vector<std::string> flat;
@@ -190,6 +173,29 @@ MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geomet
         flat,
         "no volume within what bounds a medium; give it thickness, or take KHR_materials_volume "
         "away for a thin wall");
+}
+
+}  // namespace
+
+MediaTables build_media_tables(const Scene& scene, const NormalisedScene& geometry) {
+    MediaTables tables;
+    tables.rows.assign(scene.materials.size(), 0);
+    tables.bodies = bodies_with_media(scene, geometry);
+    for (const MediaBody& body : tables.bodies)
+        for (const uint32_t m : body.boundaries) {
+            if (tables.rows[m] > 0) continue;
+            const Material& material = scene.materials[m];
+            const Medium& medium = material.medium;
+            if (auto dense = warning_of_extinction(scene, m, geometry.extent.metres);
+                !dense.empty())
+                tables.warnings.push_back(std::move(dense));
+            tables.rows[m] = row_of(device_medium(scene, m, geometry.extent.metres), tables.media);
+            tables.refract = tables.refract || material.boundary == Boundary::dielectric;
+            tables.refract_roughly = tables.refract_roughly || refracts_roughly(material);
+            tables.scatter = tables.scatter || medium.scatters();
+            tables.emit = tables.emit || medium.emits();
+        }
+    check_bodies(scene, tables);
     constexpr std::size_t most_media = 255;  // eight bits of MEDIUM_STACK
     if (tables.media.size() > most_media)
         throw Error(

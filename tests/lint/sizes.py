@@ -14,9 +14,8 @@ MOST_FUNCTION_LINES = 60
 # One kernel each: what a stage keeps in registers a second one would store and load again.
 LONG_KERNELS = {"connect_through_media", "direct_light", "find_contacts", "generate_rays", "refract_boundary",
                 "roulette_compact", "sample_distance", "sample_indirect"}
-# Tables, or steps in the order in which they have to come; each is to become shorter, none longer.
-LONG_FUNCTIONS = {"build_light_tables": 67, "build_media_tables": 62, "render": 63}
-LONG_FILES = {"src/gltf/gltf_accessor.cpp": 315}
+# Steps in the order in which they have to come; to become shorter, not longer.
+LONG_FUNCTIONS = {"render": 63}
 
 
 def functions(lines):
@@ -24,7 +23,7 @@ def functions(lines):
     start = None
     for n, line in enumerate(lines):
         begins = re.match(r"[A-Za-z].*\(", line) and not line.endswith(";")
-        if start is None and begins and not re.match(r"(namespace|static_assert|constexpr|typedef)\b", line):
+        if start is None and begins and not re.match(r"(namespace|static_assert|(inline )?constexpr|typedef)\b", line):
             start = n
         elif start is not None and line.endswith(";") and not line.startswith((" ", "}")):
             start = None
@@ -40,7 +39,7 @@ def main():
     for path in sorted([*ROOT.glob("src/**/*.cpp"), *ROOT.glob("src/**/*.h"), *ROOT.glob("kernels/**/*.cl")]):
         name = path.relative_to(ROOT).as_posix()
         lines = path.read_text().splitlines()
-        if len(lines) > LONG_FILES.get(name, MOST_LINES):
+        if len(lines) > MOST_LINES:
             wrong.append(f"{name} has {len(lines)} lines")
         for function, count in functions(lines):
             if path.suffix == ".cl" and function in LONG_KERNELS:
