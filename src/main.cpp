@@ -1,3 +1,4 @@
+#include "commands/chart/chart.h"
 #include "commands/devices.h"
 #include "commands/interrupt.h"
 #include "commands/manual.h"
@@ -51,7 +52,7 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     std::string what = error.what();
     const std::vector<std::string> rest = app.remaining();
     if (command.empty() && !rest.empty() && !rest.front().starts_with('-'))
-        what = rest.front() + " is no command: render, profile or devices";
+        what = rest.front() + " is no command: render, profile, chart or devices";
     constexpr std::string_view unconverted = "Could not convert: ";  // then: --option = value
     if (what.starts_with(unconverted)) what = what.substr(unconverted.size()) + ": not a number";
     spdlog::error("{}; see wavepath {}--help", what, command);
@@ -83,6 +84,7 @@ int run_command_line(int argc, char** argv) {
     wavepath::add_render_command(app);
     wavepath::add_devices_command(app);
     wavepath::add_profile_command(app);
+    wavepath::add_chart_command(app);
     try {
         wavepath::prepare_environment();
         app.parse(argc, argv);

@@ -202,14 +202,14 @@ void add_sampling_options(OptionGroup group, RenderOptions& o) {
         "--target-error", o.target_error, "REL",
         "Sample until the mean relative standard error falls below this instead");
     group.add_number("--seed", o.seed, "N", int64_t{0}, most, "Of the random numbers; default 1");
-    group.add_choice(
-        "--sampler", o.sampler, {"sobol", "independent"}, "Kind of points; default sobol");
 }
 
 void add_method_options(OptionGroup group, RenderOptions& o) {
     std::vector<std::string> names;
     for (const Method& method : methods()) names.push_back(method.name);
     group.add_choice("--method", o.method, names, "The estimator; default mis");
+    group.add_choice(
+        "--sampler", o.sampler, {"sobol", "independent"}, "Kind of points; default sobol");
     group.add(
         "--termination", o.termination, "HOW",
         "When paths end: zero, depth:D (biased), roulette (default), roulette:q");
@@ -255,13 +255,16 @@ void add_render_options(CLI::App& app, RenderOptions& o) {
     add_view_options({app, "View"}, o);
     add_light_options({app, "Light"}, o);
     add_sampling_options({app, "Samples"}, o);
+    add_variant_options(app, o);
+}
+
+void add_variant_options(CLI::App& app, RenderOptions& o) {
     add_method_options({app, "Method"}, o);
     add_device_options({app, "Device"}, o);
 }
 
-RenderJob prepare_job(const RenderOptions& options) {
-    RenderJob job;
-    RenderSettings& settings = job.settings;
+RenderSettings parse_settings(const RenderOptions& options) {
+    RenderSettings settings;
     settings.method = method_named(options.method);
     if (!options.light_choice.empty())
         settings.method.light_choice =
@@ -275,9 +278,15 @@ RenderJob prepare_job(const RenderOptions& options) {
     settings.sobol = options.sampler == "sobol";
     settings.layers_conserve = options.layering == "conserving";
     settings.seed = options.seed;
-    job.scene_of_file = options.scene_of_file;
     settings.pool = options.pool;
     parse_budget(options, settings);
+    return settings;
+}
+
+RenderJob prepare_job(const RenderOptions& options) {
+    RenderJob job;
+    job.settings = parse_settings(options);
+    job.scene_of_file = options.scene_of_file;
     if (!(options.lumens_per_watt > 0) || !std::isfinite(options.lumens_per_watt))
         throw Error(
             "--lumens-per-watt {}: use a number above 0, 683 for lights in candela and lux",
@@ -288,8 +297,8 @@ RenderJob prepare_job(const RenderOptions& options) {
         options.scene, options.scene_of_file, options.max_texels << 20U, options.lumens_per_watt);
     job.lumens_per_watt = options.lumens_per_watt;
     job.scene.environment = parse_environment(options);
-    settings.camera = parse_camera(options, job.scene);
-    parse_size(options.size, settings.camera, settings);
+    job.settings.camera = parse_camera(options, job.scene);
+    parse_size(options.size, job.settings.camera, job.settings);
     job.load_seconds = watch.lap();
     return job;
 }

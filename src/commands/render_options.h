@@ -1,4 +1,4 @@
-// The options that `render` and `profile` share, and what they amount to.
+// The options of all that renders, and what they amount to.
 #pragma once
 
 #include "gltf/gltf_loader.h"
@@ -45,6 +45,13 @@ struct RenderOptions {
 };
 
 void add_render_options(CLI::App& app, RenderOptions& options);
+
+// Those of them that change how a picture is computed and not what it shows.
+void add_variant_options(CLI::App& app, RenderOptions& options);
+
+// All settings but camera and size, which take the scene. Throws Error for options that contradict
+// each other or their own syntax.
+RenderSettings parse_settings(const RenderOptions& options);
 
 // A scene as the options name and light it, with the settings to render it. Throws Error for
 // options that contradict each other, the scene, or their own syntax.

@@ -1,0 +1,112 @@
+#include "commands/chart/measurement.h"
+
+#include "measure/efficiency.h"
+#include "measure/floor.h"
+#include "measure/picture_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wavepath {
+
+namespace {
+
+double median(std::vector<double> values) {
+    if (values.empty()) return std::nan("");
+    const std::size_t middle = values.size() / 2;
+    std::ranges::sort(values);
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+Verdict verdict_of(const VariantCurve& curve, const Reference& reference) {
+    if (curve.nonfinite_samples > 0) return Verdict::not_finite;
+    if (!curve.bias.empty()) return Verdict::biased;
+    if (curve.tail.infinite_variance) return Verdict::infinite_variance;
+    const double last = curve.points.back().median_rel_mse();
+    // A reference whose own error is not known is taken at its word.
+    if (!(last > 0) || last < reference.rel_mse) return Verdict::below_reference;
+    return Verdict::sound;
+}
+
+}  // namespace
+
+double ChartPoint::median_seconds() const {
+    return median(seconds);
+}
+
+double ChartPoint::median_mse() const {
+    return median(mse);
+}
+
+double ChartPoint::median_rel_mse() const {
+    return median(rel_mses);
+}
+
+void add_errors(ChartPoint& point, const KeptRender& render, const Reference& reference) {
+    point.seconds.push_back(render.seconds);
+    point.mse.push_back(mse(render.image, reference.half1, reference.half2).value);
+    point.rel_mses.push_back(rel_mse(render.image, reference.half1, reference.half2).value);
+}
+
+VariantCurve measure_curve(
+    VariantCurve curve, const std::vector<Image>& last_pictures, const Reference& reference) {
+    std::vector<double> samples;
+    std::vector<double> seconds;
+    std::vector<double> errors;
+    for (const ChartPoint& point : curve.points) {
+        // Where the reference is no better than the picture, its noise would flatten the line.
+        if (point.median_rel_mse() < reference.rel_mse) continue;
+        samples.push_back(static_cast<double>(point.samples));
+        seconds.push_back(point.median_seconds());
+        errors.push_back(point.median_rel_mse());
+    }
+    curve.slope_samples = log_slope(samples, errors);
+    curve.slope_time = log_slope(seconds, errors);
+    const ChartPoint& last = curve.points.back();
+    curve.efficiency = efficiency(last.rel_mses, last.seconds);
+    curve.floor = bias_floor(last_pictures, reference.half1, reference.half2);
+    std::vector<double> deviations;
+    for (const Image& picture : last_pictures) {
+        const std::vector<double> more = relative_deviations(picture, reference.half1);
+        deviations.insert(deviations.end(), more.begin(), more.end());
+    }
+    curve.tail = tail_of(deviations);
+    curve.verdict = verdict_of(curve, reference);
+    return curve;
+}
+
+std::string name_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::sound:
+            return "sound";
+        case Verdict::biased:
+            return "biased";
+        case Verdict::infinite_variance:
+            return "infinite variance";
+        case Verdict::not_finite:
+            return "samples that are not finite";
+        case Verdict::below_reference:
+            return "as good as the reference";
+    }
+    return {};
+}
+
+std::optional<std::size_t> winner_of(const std::vector<VariantCurve>& curves) {
+    const auto is_ranked = [](const VariantCurve& curve) {
+        return curve.verdict == Verdict::sound && std::isfinite(curve.efficiency.value);
+    };
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        if (is_ranked(curves[i]) &&
+            (!best || curves[i].efficiency.value > curves[*best].efficiency.value))
+            best = i;
+    if (std::ranges::count_if(curves, is_ranked) < 2) return std::nullopt;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        if (i == *best || !is_ranked(curves[i])) continue;
+        const Interval ratio = efficiency_ratio(curves[*best].efficiency, curves[i].efficiency);
+        if (!(ratio.low > 1)) return std::nullopt;
+    }
+    return best;
+}
+
+}  // namespace wavepath
