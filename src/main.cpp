@@ -1,5 +1,6 @@
 #include "commands/chart/chart.h"
 #include "commands/devices.h"
+#include "commands/diff.h"
 #include "commands/interrupt.h"
 #include "commands/manual.h"
 #include "commands/outputs.h"
@@ -11,6 +12,7 @@
 #include "error.h"
 
 #include <fcntl.h>
+#include <fmt/ranges.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -30,19 +32,29 @@ namespace {
 
 constexpr int exit_failure = 1;
 constexpr int exit_cut = 2;
+constexpr int exit_differ = 3;
 constexpr int exit_signalled = 128;  // plus the signal's number, as in a shell
 
 constexpr const char* notes =
     "Exit status: 0 done; 1 an error, said in one line on standard error; 2 the picture is "
     "written, but\n"
-    "paths without end were cut and their light is missing; 130 interrupted by Ctrl-C, 129 by "
-    "SIGHUP,\n"
-    "143 by SIGTERM, 152 by SIGXCPU: the picture is written with the samples taken so far.\n"
+    "paths without end were cut and their light is missing; 3 pictures differ (diff); 130 "
+    "interrupted\n"
+    "by Ctrl-C, 129 by SIGHUP, 143 by SIGTERM, 152 by SIGXCPU: the picture is written with the "
+    "samples\n"
+    "taken so far.\n"
     "\n"
     "Environment: OCL_ICD_VENDORS, which OpenCL drivers are seen; POCL_MAX_PTHREAD_COUNT, the "
     "cores\n"
     "that PoCL uses; WAVEPATH_KERNELS, a folder of kernels to use instead of the built-in ones;\n"
     "XDG_CACHE_HOME, where compiled kernels are kept.";
+
+std::vector<std::string> commands_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(nullptr))
+        if (!command->get_group().empty()) names.push_back(command->get_name());
+    return names;
+}
 
 // Lets CLI11 answer a wrong command line in the one-line form of every other error.
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {
@@ -52,7 +64,7 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     std::string what = error.what();
     const std::vector<std::string> rest = app.remaining();
     if (command.empty() && !rest.empty() && !rest.front().starts_with('-'))
-        what = rest.front() + " is no command: render, profile, chart or devices";
+        what = fmt::format("{} is no command: {}", rest.front(), fmt::join(commands_of(app), ", "));
     constexpr std::string_view unconverted = "Could not convert: ";  // then: --option = value
     if (what.starts_with(unconverted)) what = what.substr(unconverted.size()) + ": not a number";
     spdlog::error("{}; see wavepath {}--help", what, command);
@@ -85,6 +97,7 @@ int run_command_line(int argc, char** argv) {
     wavepath::add_devices_command(app);
     wavepath::add_profile_command(app);
     wavepath::add_chart_command(app);
+    wavepath::add_diff_command(app);
     try {
         wavepath::prepare_environment();
         app.parse(argc, argv);
@@ -93,7 +106,8 @@ int run_command_line(int argc, char** argv) {
         else if (!completion.empty())
             std::fputs(wavepath::bash_completion(app).c_str(), stdout);
         else if (app.get_subcommands().empty()) {
-            spdlog::error("no command given: render, profile or devices; see wavepath --help");
+            spdlog::error(
+                "no command given: render, profile, diff or devices; see wavepath --help");
             return exit_failure;
         }
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
@@ -104,6 +118,8 @@ int run_command_line(int argc, char** argv) {
         return usage_error(app, error);
     } catch (const wavepath::PathsCut&) {
         return exit_cut;
+    } catch (const wavepath::ExpectationsDiffer&) {
+        return exit_differ;
     } catch (const wavepath::Interrupted& interrupted) {
         return exit_signalled + interrupted.signal;
     } catch (const wavepath::OutputFailed&) {

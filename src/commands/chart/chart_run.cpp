@@ -126,14 +126,19 @@ class ChartRun {
         last_pictures_.resize(variants_.size());
     }
 
-    // A method is judged by pictures of another one, so that a bias of its own shows.
+    // A method is judged by pictures of another one, so that a bias of its own shows, unless those
+    // are far noisier.
     void make_references() {
         if (options_.reference.empty()) {
             references_ = {render_reference("mis"), render_reference("direct-bsdf")};
             const Ratio ratio = ratio_of_means(references_[0].half1, references_[1].half1);
+            const bool too_noisy = references_[1].rel_mse > 4 * references_[0].rel_mse;
+            if (too_noisy) references_[1] = references_[0];
             references_[0].text += fmt::format(
-                " The ratio of the means of both is {:.5g} +- {:.2g}.", ratio.value,
-                ratio.standard_error);
+                " They are by mis{}; the ratio of the means of both methods is {:.5g} +- {:.2g}.",
+                too_noisy ? ", for mis itself too, since those of direct-bsdf are far noisier here"
+                          : ", for mis itself by direct-bsdf",
+                ratio.value, ratio.standard_error);
         } else {
             Reference reference;
             reference.half1 = read_exr(options_.reference);
@@ -164,8 +169,7 @@ class ChartRun {
         reference.rel_mse = rel_mse_of_halves(reference.half1, reference.half2).value;
         reference.text = fmt::format(
             "R is two independent halves of {} samples; (A - R1)(A - R2) stands for (A - R)^2, so "
-            "that their noise adds nothing on average. They are by mis, for mis itself by "
-            "direct-bsdf.",
+            "that their noise adds nothing on average.",
             samples);
         return reference;
     }
