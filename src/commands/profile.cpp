@@ -55,7 +55,11 @@ void print_rays(const RenderResult& result) {
             result.times.render);
 }
 
-void print_profile(const Device& device, const RenderJob& job, const RenderResult& result) {
+void print_profile(
+    const Device& device,
+    const RenderJob& job,
+    const RenderResult& result,
+    const nlohmann::ordered_json& /*report*/) {
     const double samples =
         static_cast<double>(result.samples) * job.settings.width * job.settings.height;
     fmt::print(
@@ -88,7 +92,12 @@ void add_profile_command(CLI::App& app) {
     const auto options = std::make_shared<RenderOptions>();
     const auto outputs = std::make_shared<Outputs>();
     add_render_options(*command, *options);
-    add_output_options(*command, *outputs);
+    add_report_options(*command, *outputs);
+    command
+        ->add_option(
+            "--trace", outputs->trace, "Write the timeline of every launch, for ui.perfetto.dev")
+        ->type_name("FILE")
+        ->group("Output");
     command->callback([options, outputs] { run_job(*options, *outputs, print_profile); });
 }
 

@@ -69,13 +69,6 @@ TEST_F(ProfileCommand, LeavesItsSceneAlone) {
     EXPECT_EQ(std::filesystem::file_size(scene), std::filesystem::file_size(cornell_box));
 }
 
-TEST_F(ProfileCommand, WritesThePictureItTimed) {
-    const Outcome outcome =
-        run("profile " + cornell_box + " --size 8x8 --spp 1 -o " + path("a.exr"));
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.words;
-    EXPECT_TRUE(std::filesystem::exists(path("a.exr")));
-}
-
 TEST_F(ProfileCommand, CountsRaysByDepth) {
     const Outcome outcome =
         run("profile " + cornell_box +
