@@ -3,6 +3,7 @@
 #include "commands/interrupt.h"
 #include "commands/progress.h"
 #include "commands/report.h"
+#include "commands/trace.h"
 #include "error.h"
 #include "film/auto_exposure.h"
 #include "image/atomic_file.h"
@@ -36,7 +37,8 @@ bool one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 std::vector<std::filesystem::path> files_of(const Outputs& outputs) {
     std::vector<std::filesystem::path> files = outputs.images;
-    if (!outputs.json.empty()) files.push_back(outputs.json);
+    for (const auto& file : {outputs.json, outputs.trace})
+        if (!file.empty()) files.push_back(file);
     return files;
 }
 
@@ -103,6 +105,10 @@ void add_output_options(CLI::App& app, Outputs& outputs) {
            "0")
         ->type_name("EV|auto")
         ->group("Output");
+    add_report_options(app, outputs);
+}
+
+void add_report_options(CLI::App& app, Outputs& outputs) {
     app.add_option("--json", outputs.json, "Write a report of the render")
         ->type_name("FILE")
         ->group("Output");
@@ -124,9 +130,11 @@ void check_outputs(Outputs& outputs) {
     };
     const bool wants_pictures = !outputs.images.empty();
     std::erase_if(outputs.images, is_lost);
-    if (!outputs.json.empty() && is_lost(outputs.json)) outputs.json.clear();
+    for (std::filesystem::path* file : {&outputs.json, &outputs.trace})
+        if (!file->empty() && is_lost(*file)) file->clear();
     if (reasons.empty()) return;
-    if (outputs.images.empty() && (wants_pictures || outputs.json.empty()))
+    if (outputs.images.empty() &&
+        (wants_pictures || (outputs.json.empty() && outputs.trace.empty())))
         throw Error("{}", reasons.front());
     for (const std::string& reason : reasons) spdlog::error("{}", reason);
     outputs.lacks_some = true;
@@ -143,7 +151,11 @@ void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inpu
 }
 
 void write_outputs(
-    const Device& device, const RenderJob& job, RenderResult& result, const Outputs& outputs) {
+    const Device& device,
+    const RenderJob& job,
+    RenderResult& result,
+    const Outputs& outputs,
+    nlohmann::ordered_json report) {
     const Image& image = result.film.image;
     result.film.image.metadata = metadata(device, job, result);
     const auto fixed = fixed_exposure(outputs);
@@ -158,22 +170,25 @@ void write_outputs(
             failed = true;
         }
     };
-    for (const auto& path : outputs.images)
+    const auto write_image = [&](const std::filesystem::path& path) {
+        if (path.extension() == ".exr")
+            write_exr(image, path);
+        else
+            write_png(image, path, exposure);
+        spdlog::info(
+            "wrote {}: {} samples a pixel in {:.2f} s, relative error {}", path.string(),
+            result.samples, result.times.render, relative_error_text(result.film.relative_error));
+    };
+    {
+        const HostSpan span(result.timeline ? &*result.timeline : nullptr, "write");
+        for (const auto& path : outputs.images) attempt([&] { write_image(path); });
+        report["exposure_ev"] = exposure;
+        if (!outputs.json.empty())
+            attempt([&] { AtomicFile(outputs.json).commit(text_of(report, 2) + "\n"); });
+    }
+    if (!outputs.trace.empty())
         attempt([&] {
-            if (path.extension() == ".exr")
-                write_exr(image, path);
-            else
-                write_png(image, path, exposure);
-            spdlog::info(
-                "wrote {}: {} samples a pixel in {:.2f} s, relative error {}", path.string(),
-                result.samples, result.times.render,
-                relative_error_text(result.film.relative_error));
-        });
-    if (!outputs.json.empty())
-        attempt([&] {
-            nlohmann::ordered_json report = render_report(device, job, result);
-            report["exposure_ev"] = exposure;
-            AtomicFile(outputs.json).commit(text_of(report, 2) + "\n");
+            AtomicFile(outputs.trace).commit(text_of(trace_of(job.scene.name, result), -1) + "\n");
         });
     if (result.interrupted)
         spdlog::warn("interrupted: there are {} samples a pixel", result.samples);

@@ -3,6 +3,8 @@
 
 #include "commands/render_options.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace wavepath {
 
 // Thrown when the reasons have been said; main answers with exit status 1.
@@ -12,12 +14,15 @@ struct Outputs {
     std::vector<std::filesystem::path> images;
     std::string exposure = "0";  // of PNG: stops, or "auto"
     std::filesystem::path json;
+    std::filesystem::path trace;  // the timeline; asks for one to be kept
     bool quiet = false;
     bool lacks_some = false;  // that check_outputs has taken out
 };
 
-// Options for `outputs`, whose values beforehand are the defaults.
+// Options for `outputs`, whose values beforehand are the defaults: for pictures and the report, and
+// for the report alone.
 void add_output_options(CLI::App& app, Outputs& outputs);
+void add_report_options(CLI::App& app, Outputs& outputs);
 
 // Says in a line each which outputs can't be written, and takes them out. Throws Error where no
 // picture would be left, or, without pictures, no report.
@@ -31,8 +36,12 @@ struct PathsCut {};
 
 // Writes what can be written and says in a line each what cannot. Throws OutputFailed at the end if
 // there was any such, else Interrupted if a signal stopped the render, else PathsCut if paths were
-// cut.
+// cut. `report`: what --json gets, without `exposure_ev`.
 void write_outputs(
-    const Device& device, const RenderJob& job, RenderResult& result, const Outputs& outputs);
+    const Device& device,
+    const RenderJob& job,
+    RenderResult& result,
+    const Outputs& outputs,
+    nlohmann::ordered_json report);
 
 }  // namespace wavepath

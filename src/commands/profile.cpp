@@ -1,77 +1,42 @@
 #include "commands/profile.h"
 
 #include "commands/outputs.h"
+#include "commands/profile_page.h"
+#include "commands/profile_tables.h"
 #include "commands/run_job.h"
+#include "error.h"
+#include "image/exr_writer.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 
 namespace wavepath {
 
 namespace {
 
-void print_kernels(const RenderResult& result) {
-    std::vector<ProfileRow> rows = result.profile;
-    std::ranges::sort(rows, std::greater{}, &ProfileRow::seconds);
-    fmt::print(
-        "{:<18}{:>10}{:>14}{:>12}{:>8}{:>12}{:>12}\n", "kernel", "launches", "items", "ms", "share",
-        "ns/item", "Mitems/s");
-    double kernels = 0;
-    for (const ProfileRow& row : rows) {
-        kernels += row.seconds;
-        const auto items = static_cast<double>(std::max<uint64_t>(row.items, 1));
-        fmt::print(
-            "{:<18}{:>10}{:>14}{:>12.2f}{:>7.1f}%{:>12.2f}{:>12.2f}\n", row.name, row.launches,
-            row.items, 1e3 * row.seconds, 100 * row.seconds / result.times.render,
-            1e9 * row.seconds / items, row.seconds > 0 ? 1e-6 * items / row.seconds : 0);
-    }
-    const double outside = result.times.render - kernels;
-    fmt::print(
-        "{:<18}{:>36.2f}{:>7.1f}%  launches, readbacks, host\n", "outside kernels", 1e3 * outside,
-        100 * outside / result.times.render);
-    if (!result.device_clock)
-        fmt::print(
-            "this driver returns no times for kernels: the rows above are empty, host time stands "
-            "in\n");
-}
-
-void print_rays(const RenderResult& result) {
-    fmt::print("\nrays per depth (closest hit)\n");
-    uint64_t alive = 0;
-    for (const uint64_t n : result.rays.path_lengths) alive += n;
-    for (std::size_t depth = 0; depth < result.rays.path_lengths.size() && alive > 0; ++depth) {
-        fmt::print(
-            "{:>5}{}{:>14}\n", depth, depth + 1 == result.rays.path_lengths.size() ? "+" : " ",
-            alive);
-        alive -= result.rays.path_lengths[depth];
-    }
-    fmt::print(
-        "closest hits {}, connections {}, {:.2f} Mrays/s\n", result.rays.closest,
-        result.rays.connections,
-        1e-6 * static_cast<double>(result.rays.closest + result.rays.connections) /
-            result.times.render);
-}
-
-void print_profile(const Device& device, const RenderJob& job, const RenderResult& result) {
-    const double samples =
-        static_cast<double>(result.samples) * job.settings.width * job.settings.height;
-    fmt::print(
-        "{}: {} triangles, {}x{}, {} samples a pixel, {}, {} on {}, {}\n\n", job.scene.name,
+std::string title_of(const Device& device, const RenderJob& job, const RenderResult& result) {
+    return fmt::format(
+        "{}: {} triangles, {}x{}, {} samples a pixel, {}, {} on {}, {}", job.scene.name,
         result.triangles, job.settings.width, job.settings.height, result.samples,
         job.settings.method.name, job.settings.termination.text(), device.info.platform,
         device.info.name);
-    print_kernels(result);
-    print_rays(result);
+}
+
+void print_totals(const RenderJob& job, const RenderResult& result) {
+    const double samples =
+        static_cast<double>(result.samples) * job.settings.width * job.settings.height;
     fmt::print(
-        "\n{:.2f} Msamples/s; load {:.0f} ms, BVH {:.0f} ms, upload {:.0f} ms, program {:.0f} ms "
-        "({}), render {:.0f} ms\n",
+        "closest hits {}, connections {}, {:.2f} Mrays/s\n\n"
+        "{:.2f} Msamples/s; load {:.0f} ms, BVH {:.0f} ms, upload {:.0f} ms, program {:.0f} ms, "
+        "render {:.0f} ms\n",
+        result.rays.closest, result.rays.connections,
+        1e-6 * static_cast<double>(result.rays.closest + result.rays.connections) /
+            result.times.render,
         1e-6 * samples / result.times.render, 1e3 * job.load_seconds, 1e3 * result.times.bvh_build,
-        1e3 * result.times.upload, 1e3 * result.times.program_build,
-        result.program.from_cache ? "from our cache" : "built, or from the driver's cache",
-        1e3 * result.times.render);
+        1e3 * result.times.upload, 1e3 * result.times.program_build, 1e3 * result.times.render);
     fmt::print(
         "device memory: scene {:.1f} MiB ({:.0f} bytes a triangle), pool {:.1f} MiB, film {:.1f} "
         "MiB\n",
@@ -81,15 +46,71 @@ void print_profile(const Device& device, const RenderJob& job, const RenderResul
         static_cast<double>(result.film_bytes) / 1048576.0);
 }
 
+void print_profile(const RenderJob& job, const RenderResult& result, const Roofline& roofline) {
+    fmt::print("{}", text_of(kernel_table(result)));
+    if (!result.device_clock)
+        fmt::print(
+            "this driver returns no times for kernels: the rows above are empty, host time stands "
+            "in\n");
+    fmt::print("\n{}\n{}", peaks_sentence(roofline), text_of(roofline_table(roofline)));
+    fmt::print("\n{}\n{}", build_sentence(result.program), text_of(build_table(result.program)));
+    fmt::print("\n{}", text_of(depth_table(result.rays)));
+    print_totals(job, result);
+}
+
+// `folder`: where the page goes; empty: there is none.
+void run_profile(
+    const RenderOptions& options, Outputs outputs, const std::filesystem::path& folder) {
+    const std::filesystem::path page = folder / "page.html";
+    if (!folder.empty()) {
+        check_gnuplot();
+        std::error_code failure;
+        std::filesystem::create_directories(folder, failure);
+        if (failure)
+            throw Error(
+                "{}: no folder can be made there: {}; choose another", folder.string(),
+                failure.message());
+        check_writable(page);
+        if (outputs.json.empty()) outputs.json = folder / "profile.json";
+        if (outputs.trace.empty()) outputs.trace = folder / "trace.json";
+    }
+    run_job(
+        options, outputs,
+        [&](const Device& device, const RenderJob& job, const RenderResult& result,
+            nlohmann::ordered_json& report) {
+            const Roofline roofline = roofline_of(result, measure_peaks(device));
+            report["roofline"] = roofline_report(roofline);
+            const std::string title = title_of(device, job, result);
+            if (!folder.empty()) {
+                write_profile_page(page, title, result, roofline);
+                spdlog::info("wrote {}", page.string());
+            }
+            fmt::print("{}\n\n", title);
+            print_profile(job, result, roofline);
+        });
+}
+
 }  // namespace
 
 void add_profile_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("profile", "Time every kernel of a render");
     const auto options = std::make_shared<RenderOptions>();
     const auto outputs = std::make_shared<Outputs>();
+    const auto folder = std::make_shared<std::filesystem::path>();
     add_render_options(*command, *options);
-    add_output_options(*command, *outputs);
-    command->callback([options, outputs] { run_job(*options, *outputs, print_profile); });
+    command
+        ->add_option(
+            "-o,--output", *folder,
+            "Folder for page.html, with charts, profile.json and trace.json")
+        ->type_name("DIR")
+        ->group("Output");
+    add_report_options(*command, *outputs);
+    command
+        ->add_option(
+            "--trace", outputs->trace, "Write the timeline of every launch, for ui.perfetto.dev")
+        ->type_name("FILE")
+        ->group("Output");
+    command->callback([options, outputs, folder] { run_profile(*options, *outputs, *folder); });
 }
 
 }  // namespace wavepath

@@ -57,6 +57,23 @@ ordered_json times_report(const RenderJob& job, const RenderResult& result) {
     };
 }
 
+ordered_json build_report(const BuildReport& build) {
+    ordered_json kernels = ordered_json::array();
+    for (const KernelBuild& kernel : build.kernels)
+        kernels.push_back(
+            {{"kernel", kernel.name},
+             {"private_bytes", kernel.private_bytes},
+             {"local_bytes", kernel.local_bytes},
+             {"preferred_multiple", kernel.preferred_multiple}});
+    return {
+        {"seconds", build.seconds},
+        {"from_own_cache", build.from_cache},
+        {"binary_bytes",
+         build.binary_bytes ? ordered_json(*build.binary_bytes) : ordered_json(nullptr)},
+        {"kernels", kernels},
+    };
+}
+
 ordered_json rays_report(const RenderResult& result) {
     const auto rays = static_cast<double>(result.rays.closest + result.rays.connections);
     return {
@@ -141,6 +158,7 @@ ordered_json profile_report(const RenderResult& result) {
     }
     return {
         {"device_clock", result.device_clock},
+        {"tracing", result.tracing},
         {"kernels", rows},
         {"kernel_seconds", kernels},
         {"outside_kernels_seconds", result.times.render - kernels},
@@ -167,8 +185,7 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
           {"compute_units", device.info.compute_units}}},
         {"scene", scene_report(job, result)},
         {"times_s", times_report(job, result)},
-        {"program_build",
-         {{"seconds", result.program.seconds}, {"from_own_cache", result.program.from_cache}}},
+        {"program_build", build_report(result.program)},
         {"samples_per_pixel", result.samples},
         {"samples_per_s", number(samples / result.times.render)},
         {"batches", result.batches},

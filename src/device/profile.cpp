@@ -16,7 +16,7 @@ std::size_t Profile::row(const std::string& name) {
 void Profile::add(std::size_t row, uint64_t items, const cl::Event& event) {
     ++rows_[row].launches;
     rows_[row].items += items;
-    pending_.push_back({row, event});
+    pending_.push_back({row, items, event});
     if (pending_.size() < most_pending) return;
     event.wait();
     collect();
@@ -28,6 +28,7 @@ void Profile::collect() {
         const cl_ulong end = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
         if (end == 0) device_clock_ = false;  // Rusticl 22.3
         rows_[launch.row].seconds += 1e-9 * static_cast<double>(end - start);
+        if (timeline_ && end != 0) timeline_->add_launch(launch.row, launch.items, start, end);
     }
     pending_.clear();
 }

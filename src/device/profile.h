@@ -2,8 +2,10 @@
 #pragma once
 
 #include "device/opencl.h"
+#include "device/timeline.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,11 @@ class Profile {
     // driver returns zeros, `device_clock` turns false and times stay 0.
     void collect();
 
+    // From now on every launch is kept by itself, too.
+    void keep_timeline(const Device& device) { timeline_.emplace(device); }
+    Timeline* timeline() { return timeline_ ? &*timeline_ : nullptr; }  // 0: none is kept
+    std::optional<Timeline> take_timeline() { return std::move(timeline_); }
+
     static constexpr std::size_t most_pending = 4096;
     std::size_t pending() const { return pending_.size(); }
 
@@ -38,11 +45,13 @@ class Profile {
   private:
     struct Launch {
         std::size_t row;
+        uint64_t items;
         cl::Event event;
     };
 
     std::vector<ProfileRow> rows_;
     std::vector<Launch> pending_;
+    std::optional<Timeline> timeline_;
     bool device_clock_ = true;
 };
 

@@ -253,6 +253,19 @@ std::string assemble_source(const std::string& defines, const std::vector<std::s
     return assembler.source();
 }
 
+void describe_build(const Device& device, const cl::Program& program, BuildReport& report) {
+    if (!is_pocl(device.info)) report.binary_bytes = binary_of(program).size();
+    std::vector<cl::Kernel> kernels;
+    cl::Program(program).createKernels(&kernels);
+    for (const cl::Kernel& kernel : kernels)
+        report.kernels.push_back(
+            {kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(),
+             kernel.getWorkGroupInfo<CL_KERNEL_PRIVATE_MEM_SIZE>(device.device),
+             kernel.getWorkGroupInfo<CL_KERNEL_LOCAL_MEM_SIZE>(device.device),
+             kernel.getWorkGroupInfo<CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE>(device.device)});
+    std::ranges::sort(report.kernels, {}, &KernelBuild::name);
+}
+
 cl::Program build_program(const Device& device, const std::string& source, BuildReport* report) {
     Stopwatch watch;
     std::string options = "-cl-std=CL1.2";

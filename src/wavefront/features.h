@@ -65,6 +65,11 @@ struct Features {
     bool connections_by_hits() const { return sample_lights && (passages() || lamps_on_lamps); }
     bool connections_by_occlusion() const { return sample_lights && !connections_by_hits(); }
 
+    // How `intersect` and `occlusion` go through the scene.
+    const char* tracing() const {
+        return ray_packets ? "packets" : rays_per_item > 1 ? "streams" : "single rays";
+    }
+
     // The #define lines that kernels/shared/features.h expects.
     std::string defines() const;
 };

@@ -92,6 +92,7 @@ bool QueueManager::render(
     Work work{slots, 0};
     closest_rays_ += slots;
     launch("assign_units", slots);
+    count_in_timeline(work);
     uint64_t iteration = 0;
     uint64_t last_iteration = std::numeric_limits<uint64_t>::max();
     bool stopping = false;
@@ -109,6 +110,7 @@ bool QueueManager::render(
         }
     }
     const bool whole = work.active == 0;
+    const HostSpan fold(profile_.timeline(), "fold");
     if (whole) {
         KernelBuffers band;
         name_film(band, film.band_of(window.first_pixel));
@@ -162,7 +164,10 @@ QueueManager::Work QueueManager::count_work(uint32_t slots, const Work& before) 
         nullptr, &count.arrival);
     device_.queue.flush();
     if (counts_.size() <= count_lag_) return before;
-    counts_.front().arrival.wait();
+    {
+        const HostSpan wait(profile_.timeline(), "wait for counts");
+        counts_.front().arrival.wait();
+    }
     Work work;
     for (const ChunkState& chunk : counts_.front().chunks) {
         work.active += chunk.active;
@@ -172,8 +177,14 @@ QueueManager::Work QueueManager::count_work(uint32_t slots, const Work& before) 
              chunk.cut_sample});
     }
     counts_.pop_front();
+    count_in_timeline(work);
     closest_rays_ += work.active - work.resumed;
     return work;
+}
+
+void QueueManager::count_in_timeline(const Work& work) {
+    if (Timeline* timeline = profile_.timeline())
+        timeline->add_count(work.active, work.active - work.resumed);
 }
 
 uint32_t QueueManager::compact(uint32_t slots, uint32_t active) {

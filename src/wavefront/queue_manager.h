@@ -102,6 +102,7 @@ class QueueManager {
 
     // The work as scan_queue finds it, `count_lag` iterations late: then what it was, a bound.
     Work count_work(uint32_t slots, const Work& before);
+    void count_in_timeline(const Work& work);
     // Moves the live paths, at most `active`, of `slots` slots together; returns how many slots
     // they take.
     uint32_t compact(uint32_t slots, uint32_t active);

@@ -9,6 +9,7 @@
 #include "stopwatch.h"
 #include "wavefront/render_params.h"
 #include "wavefront/sample_plan.h"
+#include "wavefront/sample_warnings.h"
 #include "wavefront/schedule.h"
 
 #include <algorithm>
@@ -168,32 +169,6 @@ void take_samples(
     }
 }
 
-// What the samples themselves show to be wrong. `gains_energy`: some layer may.
-void warn_of_samples(
-    RenderResult& result, const std::string& scene, uint64_t pixels, bool gains_energy) {
-    const double samples = static_cast<double>(result.samples) * static_cast<double>(pixels);
-    if (auto warning = outlier_warning(result.outlier, samples, gains_energy))
-        result.warnings.push_back(*std::move(warning));
-    if (result.film.nonfinite.of_media)
-        result.warnings.push_back(fmt::format(
-            "{}: samples are not finite where more than 4 media lie around one another, "
-            "or meet in a plane; take one of them away if any do",
-            scene));
-    else if (result.film.nonfinite.samples > 0 && gains_energy)
-        result.warnings.emplace_back(
-            "samples are not finite: by --layering specification dielectrics gain energy, without "
-            "bound in closed scenes; use --layering conserving");
-    else if (result.film.nonfinite.samples > 0)
-        result.warnings.push_back(fmt::format(
-            "{}: samples are not finite, and why is not known; dim lights whose radiance may "
-            "exceed 32 bits, else report the scene",
-            scene));
-    else if (result.batches > 1 && !std::isfinite(result.film.relative_error))
-        result.warnings.emplace_back(
-            "the variance layer is not finite: squares of the radiance exceed 32 bits; dim the "
-            "lights");
-}
-
 void describe(RenderResult& result, const PreparedScene& prepared, const SceneBuffers& buffers) {
     result.triangles = prepared.geometry().triangle_count();
     result.dropped_triangles = prepared.geometry().dropped;
@@ -203,6 +178,25 @@ void describe(RenderResult& result, const PreparedScene& prepared, const SceneBu
     result.scene_bytes = buffers.bytes();
     result.texture_bytes = buffers.textures.bytes();
     result.texture_pages = prepared.textures.pages();
+}
+
+DevelopedFilm develop_timed(
+    const Device& device, Profile& profile, Film&& film, const RenderResult& result) {
+    const HostSpan span(profile.timeline(), "develop");
+    return develop(device, std::move(film), result.samples, result.batches);
+}
+
+void describe_work(
+    RenderResult& result, const Features& features, Profile& profile, const QueueManager& queues) {
+    result.tracing = features.tracing();
+    result.guided = features.guide;
+    result.profile = profile.rows();
+    result.device_clock = profile.device_clock();
+    result.timeline = profile.take_timeline();
+    result.rays = queues.ray_counts();
+    result.cut_paths = queues.cut_paths();
+    result.iterations = queues.iterations();
+    result.pool_bytes = queues.bytes();
 }
 
 }  // namespace
@@ -271,20 +265,16 @@ RenderResult render(
     result.film_bytes = film.bytes();
     // Last, so that no buffer takes the place of one it freed: oclgrind mixes them up.
     warm_up(device, program, source, features, buffers, settings, params);
+    describe_build(device, program, result.program);
     result.times.program_build = watch.lap();
 
+    if (settings.keeps_timeline) profile.keep_timeline(device);
     Schedule schedule(pixels, settings.samples, settings.seconds, pool, max_cells);
     take_samples(device, settings, params, schedule, queues, film, progress, stop, result);
-    result.film = develop(device, std::move(film), result.samples, result.batches);
+    result.film = develop_timed(device, profile, std::move(film), result);
     result.outlier = largest_outlier(result.film.image);
     warn_of_samples(result, scene.name, pixels, features.has_layers && !features.layers_conserve);
-    result.profile = profile.rows();
-    result.device_clock = profile.device_clock();
-    result.rays = queues.ray_counts();
-    result.cut_paths = queues.cut_paths();
-    result.iterations = queues.iterations();
-    result.pool_bytes = queues.bytes();
-    result.guided = features.guide;
+    describe_work(result, features, profile, queues);
     describe(result, prepared, buffers);
     return result;
 }

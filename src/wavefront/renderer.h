@@ -10,6 +10,7 @@
 #include "wavefront/queue_manager.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct RenderSettings {
     bool layers_conserve = true;  // below specular layers, as materials; false: by glTF's letter
     uint32_t pool = 0;            // path slots; 0: the device's default
     WorkGroups work_groups;
+    bool keeps_timeline = false;        // of every launch, for RenderResult::timeline
     std::optional<uint32_t> count_lag;  // QueueManager's; none: 0 on a CPU, 1 elsewhere
 
     // What the settings do to the expected value; empty: nothing.
@@ -55,8 +57,10 @@ struct RenderResult {
     uint32_t batches = 0;  // that the variance rests on
     RenderTimes times;
     BuildReport program;
+    std::string tracing;  // Features::tracing
     std::vector<ProfileRow> profile;
     bool device_clock = true;
+    std::optional<Timeline> timeline;
     RayCounts rays;
     CutPaths cut_paths;
     uint64_t iterations = 0;

@@ -1,7 +1,10 @@
 // `wavepath profile`: what its numbers have to add up to.
 #include "support/command.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 
 namespace wavepath {
@@ -69,11 +72,58 @@ TEST_F(ProfileCommand, LeavesItsSceneAlone) {
     EXPECT_EQ(std::filesystem::file_size(scene), std::filesystem::file_size(cornell_box));
 }
 
-TEST_F(ProfileCommand, WritesThePictureItTimed) {
+TEST_F(ProfileCommand, WritesAPageWithTheNumbersOfItsReport) {
+    if (std::system("command -v gnuplot > /dev/null 2>&1") != 0)
+        GTEST_SKIP() << "gnuplot is not installed";
     const Outcome outcome =
-        run("profile " + cornell_box + " --size 8x8 --spp 1 -o " + path("a.exr"));
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.words;
-    EXPECT_TRUE(std::filesystem::exists(path("a.exr")));
+        run("profile " + cornell_box + " --size 32x32 --spp 4 -o " + path("new/page"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.words;
+    const std::string page = folder.read("new/page/page.html");
+    const nlohmann::json report = json("new/page/profile.json");
+    EXPECT_GT(json("new/page/trace.json")["traceEvents"].size(), 100U);
+    for (const nlohmann::json& row : report["profile"]["kernels"])
+        EXPECT_NE(
+            page.find(fmt::format(
+                "<td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
+                "<td class=\"number\">{:.2f}</td>",
+                row["kernel"].get<std::string>(), row["launches"].get<uint64_t>(),
+                row["items"].get<uint64_t>(), 1e3 * row["seconds"].get<double>())),
+            std::string::npos)
+            << row;
+    std::size_t charts = 0;
+    for (std::size_t at = 0; (at = page.find("<svg", at)) != std::string::npos; ++at) ++charts;
+    EXPECT_EQ(charts, 4U);
+}
+
+TEST_F(ProfileCommand, RefusesAFolderThatCannotBeMadeBeforeRendering) {
+    const std::string file = folder.write("file", "not a folder").string();
+    const Outcome outcome = run("profile " + cornell_box + " -o " + file + "/page");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.words.find(file + "/page: no folder can be made there"), std::string::npos)
+        << outcome.words;
+}
+
+// Every kernel that ran stands on the roofline and in the build report, once.
+TEST_F(ProfileCommand, ReportsTheRooflineAndTheBuildOfEveryKernel) {
+    const Outcome outcome =
+        run("profile " + cornell_box + " --size 32x32 --spp 4 --json " + path("a.json"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.words;
+    const nlohmann::json report = json("a.json");
+    const auto names_of = [](const nlohmann::json& rows) {
+        std::multiset<std::string> names;
+        for (const nlohmann::json& row : rows) names.insert(row["kernel"].get<std::string>());
+        return names;
+    };
+    const auto all = names_of(report["profile"]["kernels"]);
+    EXPECT_EQ(names_of(report["program_build"]["kernels"]), all);
+    for (const nlohmann::json& row : report["program_build"]["kernels"])
+        EXPECT_GT(row["preferred_multiple"], 0) << row;
+    const nlohmann::json& roofline = report["roofline"];
+    EXPECT_GT(roofline["peak_bytes_per_s"], 0);
+    EXPECT_GT(roofline["peak_flops_per_s"], 0);
+    if (report["profile"]["device_clock"].get<bool>()) {
+        EXPECT_EQ(names_of(roofline["kernels"]), all);
+    }
 }
 
 TEST_F(ProfileCommand, CountsRaysByDepth) {
