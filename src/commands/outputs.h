@@ -1,7 +1,7 @@
 // What a render leaves behind: pictures and a report.
 #pragma once
 
-#include "commands/render_options.h"
+#include "commands/render_job.h"
 
 #include <nlohmann/json_fwd.hpp>
 

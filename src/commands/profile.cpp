@@ -1,5 +1,7 @@
 #include "commands/profile.h"
 
+#include "commands/baselines.h"
+#include "commands/interrupt.h"
 #include "commands/outputs.h"
 #include "commands/profile_page.h"
 #include "commands/profile_tables.h"
@@ -60,7 +62,11 @@ void print_profile(const RenderJob& job, const RenderResult& result, const Roofl
 
 // `folder`: where the page goes; empty: there is none.
 void run_profile(
-    const RenderOptions& options, Outputs outputs, const std::filesystem::path& folder) {
+    const RenderOptions& options,
+    Outputs outputs,
+    const std::filesystem::path& folder,
+    const std::vector<std::string>& against) {
+    const std::vector<Baseline> baselines = open_baselines(against, options);
     const std::filesystem::path page = folder / "page.html";
     if (!folder.empty()) {
         check_gnuplot();
@@ -87,7 +93,11 @@ void run_profile(
             }
             fmt::print("{}\n\n", title);
             print_profile(job, result, roofline);
+            if (!baselines.empty() && !result.interrupted)
+                report["baselines"] = compare_with(baselines, device, job, result);
         });
+    // In the comparison: the render's own interruption has been thrown.
+    if (interrupt_signal() != 0) throw Interrupted{interrupt_signal()};
 }
 
 }  // namespace
@@ -96,6 +106,7 @@ void add_profile_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("profile", "Time every kernel of a render");
     const auto options = std::make_shared<RenderOptions>();
     const auto outputs = std::make_shared<Outputs>();
+    const auto against = std::make_shared<std::vector<std::string>>();
     const auto folder = std::make_shared<std::filesystem::path>();
     add_render_options(*command, *options);
     command
@@ -105,12 +116,15 @@ void add_profile_command(CLI::App& app) {
         ->type_name("DIR")
         ->group("Output");
     add_report_options(*command, *outputs);
+    add_baseline_options(*command, *against);
     command
         ->add_option(
             "--trace", outputs->trace, "Write the timeline of every launch, for ui.perfetto.dev")
         ->type_name("FILE")
         ->group("Output");
-    command->callback([options, outputs, folder] { run_profile(*options, *outputs, *folder); });
+    command->callback([options, outputs, folder, against] {
+        run_profile(*options, *outputs, *folder, *against);
+    });
 }
 
 }  // namespace wavepath

@@ -1,8 +1,7 @@
-// The options of all that renders, and what they amount to.
+// The options of all that renders.
 #pragma once
 
 #include "gltf/gltf_loader.h"
-#include "wavefront/renderer.h"
 
 #include <filesystem>
 #include <optional>
@@ -48,21 +47,5 @@ void add_render_options(CLI::App& app, RenderOptions& options);
 
 // Those of them that change how a picture is computed and not what it shows.
 void add_variant_options(CLI::App& app, RenderOptions& options);
-
-// All settings but camera and size, which take the scene. Throws Error for options that contradict
-// each other or their own syntax.
-RenderSettings parse_settings(const RenderOptions& options);
-
-// A scene as the options name and light it, with the settings to render it. Throws Error for
-// options that contradict each other, the scene, or their own syntax.
-struct RenderJob {
-    Scene scene;
-    RenderSettings settings;
-    std::string scene_of_file;   // as it was asked for; empty: the file's default
-    double lumens_per_watt = 1;  // by which the intensities of punctual lights were divided
-    double load_seconds = 0;
-};
-
-RenderJob prepare_job(const RenderOptions& options);
 
 }  // namespace wavepath

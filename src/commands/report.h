@@ -1,7 +1,7 @@
 // What `--json` writes: everything a render did, for scripts (schema in docs/report.md).
 #pragma once
 
-#include "commands/render_options.h"
+#include "commands/render_job.h"
 #include "wavefront/renderer.h"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // The settings that a chart compares.
 #pragma once
 
-#include "commands/render_options.h"
+#include "commands/render_job.h"
 
 #include <string>
 #include <vector>

@@ -40,10 +40,6 @@ std::vector<std::string> stages_of(const Features& features) {
     return stages;
 }
 
-std::string source_of(const Features& features) {
-    return assemble_source(features.defines(), QueueManager::kernel_files(features));
-}
-
 TEST(Chain, VisitsEveryKernelFile) {
     std::set<std::string> visited;
     for (const Features& features : {all_features(), without_passages(all_features())})
@@ -58,13 +54,36 @@ TEST(Chain, VisitsEveryKernelFile) {
 TEST(Chain, EveryStageFindsItsBuffers) {
     const KernelBuffers buffers = name_buffers({}, {}, {});
     for (const Features& features : {all_features(), without_passages(all_features())}) {
-        const std::string source = source_of(features);
+        const std::string source = QueueManager::source_of(features);
         for (const std::string& stage : stages_of(features))
             for (const KernelParameter& parameter : kernel_signature(source, stage))
                 if (parameter.is_buffer) {
                     EXPECT_NO_THROW(buffers.of(stage, parameter));
                 }
     }
+}
+
+// The kernel of whole paths calls the chain's stages in its order, each once, and nothing that
+// counts for the host.
+TEST(Chain, AMegakernelHoldsTheStages) {
+    Features features = all_features();
+    features.megakernel = true;
+    const std::string source = QueueManager::source_of(features);
+    const std::string text = source.substr(source.find("kernel void megakernel("));
+    std::vector<std::string> called;
+    const std::regex call("\n {8}(\\w+)\\(settings");
+    for (std::sregex_iterator i(text.begin(), text.end(), call), end; i != end; ++i)
+        called.push_back((*i)[1]);
+    std::vector<std::string> stages = stages_of(features);
+    for (const char* other :
+         {"assign_units", "scatter_queue", "move_paths", "scan_queue", "fold_film"})
+        std::erase(stages, other);
+    EXPECT_EQ(called, stages);
+    const KernelBuffers buffers = name_buffers({}, {}, {});
+    for (const KernelParameter& parameter : kernel_signature(source, "megakernel"))
+        if (parameter.is_buffer) {
+            EXPECT_NO_THROW(buffers.of("megakernel", parameter));
+        }
 }
 
 TEST(Chain, UnknownNamesWrongTypesAndWritesAreRefusedByName) {
@@ -99,7 +118,7 @@ TEST(Chain, EveryDefineIsAskedForAndEveryFeatureDefined) {
     };
     const std::regex question("#ifndef (\\w+)");
     const std::set<std::string> given = names(Features{}.defines(), std::regex("#define (\\w+) "));
-    const std::set<std::string> asked = names(source_of(all_features()), question);
+    const std::set<std::string> asked = names(QueueManager::source_of(all_features()), question);
     EXPECT_THAT(given, testing::Each(testing::AnyOfArray(asked)));
     std::set<std::string> features = names(kernel_file("shared/features.h"), question);
     features.erase("WAVEPATH_FEATURES_H");
