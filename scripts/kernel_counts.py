@@ -101,7 +101,7 @@ def run_counted(plugin, folder, command):
     counts = folder / "counts"
     counts.unlink(missing_ok=True)
     environment = os.environ | {"WAVEPATH_COUNTS": str(counts), "XDG_CACHE_HOME": str(folder / "cache"),
-                                "OCLGRIND_BUILD_OPTIONS": "-cl-opt-disable -disable-llvm-passes",
+                                "OCLGRIND_BUILD_OPTIONS": f"-cl-opt-disable -disable-llvm-passes -I{KERNELS}",
                                 "OCLGRIND_PLUGINS": str(plugin)}
     environment.pop("OCL_ICD_VENDORS", None)
     subprocess.run(command, check=True, env=environment, cwd=ROOT, stdout=subprocess.DEVNULL)

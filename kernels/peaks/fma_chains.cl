@@ -4,11 +4,11 @@
 //
 // One work-item for FMA_CHAINS vectors of WIDTH floats.
 
+#include "shared/peaks.h"
+
 #ifndef WIDTH
 #define WIDTH 8  // 1, 4, 8 or 16
 #endif
-#define FMA_CHAINS 8
-#define FMA_STEPS 512
 
 #define JOIN_NAMES(a, b) a##b
 #define VECTOR_OF(width) JOIN_NAMES(float, width)

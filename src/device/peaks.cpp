@@ -2,6 +2,7 @@
 
 #include "device/device_array.h"
 #include "device/program.h"
+#include "shared/peaks.h"
 #include "stopwatch.h"
 
 namespace wavepath {
@@ -60,7 +61,6 @@ double bytes_per_s(const Device& device) {
 }
 
 double flops_per_s(const Device& device, int width) {
-    constexpr double chains = 8, steps = 512;  // FMA_CHAINS, FMA_STEPS
     const std::size_t items = group * 4 * device.info.compute_units;
     const auto sums = zeros(device, items * static_cast<std::size_t>(width));
     const std::string defines = fmt::format("#define WIDTH {}\n", width);
@@ -70,8 +70,8 @@ double flops_per_s(const Device& device, int width) {
     kernel.setArg(0, cl_float{0.5F});
     kernel.setArg(1, cl_float{1.0F});
     kernel.setArg(2, sums.buffer());
-    return best_rate(device, kernel, items) * static_cast<double>(items) * 2 * width * chains *
-           steps;
+    return best_rate(device, kernel, items) * static_cast<double>(items) * 2 * width * FMA_CHAINS *
+           FMA_STEPS;
 }
 
 }  // namespace
