@@ -3,13 +3,11 @@
 #include "device/program.h"
 #include "host_memory.h"
 #include "prepare/camera_params.h"
-#include "prepare/hidden_lights.h"
-#include "prepare/prepared_scene.h"
 #include "shared/path.h"
 #include "stopwatch.h"
-#include "wavefront/render_params.h"
 #include "wavefront/sample_plan.h"
 #include "wavefront/schedule.h"
+#include "wavefront/upload.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,76 +16,16 @@ namespace wavepath {
 
 namespace {
 
-// Throws Error where nothing shines, or nothing that the method can find.
-void check_lights(
-    const Scene& scene,
-    const PreparedScene& prepared,
-    const Method& method,
-    std::vector<std::string>& warnings) {
-    const NormalisedScene& geometry = prepared.geometry();
-    const bool area = prepared.has_area_lights();
-    const bool emits = prepared.media.emit;
-    const bool punctual = !geometry.lights.empty();
-    if (!area && !punctual && !scene.environment && !emits)
-        throw Error(
-            "{}: no light; add an emissive material, a KHR_lights_punctual light, --env or "
-            "--env-radiance",
-            scene.name);
-    if (!punctual) return;
-    if (method.sample_lights) {
-        const std::string hidden = warning_of_hidden_lights(scene, geometry);
-        if (!hidden.empty()) warnings.push_back(hidden);
-        return;
-    }
-    if (!area && !scene.environment && !emits)
-        throw Error(
-            "{}: --method {} cannot find punctual lights, and the scene has no other; use direct, "
-            "direct-bsdf or mis",
-            scene.name, method.name);
-    warnings.push_back(fmt::format(
-        "--method {} cannot find punctual lights: their light is missing", method.name));
-}
-
-Preparation preparation_of(const RenderSettings& settings, const DeviceInfo& device) {
-    return {
-        .width = settings.width,
-        .height = settings.height,
-        .light_choice = settings.method.light_choice,
-        .lights_alone = !settings.method.weigh_both,
-        .aims = settings.method.guide && settings.method.weigh_both,
-        .page_bytes = device.max_allocation};
-}
-
 FeatureSettings feature_settings_of(
-    const RenderSettings& settings, bool far_camera, const DeviceInfo& device) {
+    const RenderSettings& settings, const RenderParams& params, const DeviceInfo& device) {
     return {
         .method = settings.method,
         .splits = settings.splits,
         .split_depth = settings.split_depth,
         .sobol = settings.sobol,
         .layers_conserve = settings.layers_conserve,
-        .far_camera = far_camera,
+        .far_camera = is_far_camera(params),
         .is_cpu = device.is_cpu};
-}
-
-void check_splits(const RenderSettings& settings, bool media_scatter) {
-    const Splits& splits = settings.splits;
-    if (media_scatter && splits.stops > 1 && settings.method.distances == Distances::exponential)
-        throw Error(
-            "--splits with more than one stop: --distance exponential has one or none; choose "
-            "another");
-    if (settings.split_depth == 0 &&
-        std::max({splits.stops, splits.directions, splits.reflections}) > 1)
-        throw Error("--splits with --split-depth 0: nothing would branch; take 1 or more");
-    constexpr double most = 1e8;
-    const double children =
-        splits.reflections + (media_scatter ? double{1} * splits.stops * splits.directions : 0);
-    const double paths = std::pow(children, settings.split_depth);
-    if (children > 1 && paths > most)
-        throw Error(
-            "--splits {},{},{} --split-depth {}: up to {:.0g} paths a sample, "
-            "at most {:.0g}; lower them",
-            splits.stops, splits.directions, splits.reflections, settings.split_depth, paths, most);
 }
 
 // Before the film is made, for a CPU's memory is everybody's.
@@ -227,30 +165,17 @@ std::string bias_of(const RenderSettings& settings, const RenderResult& result) 
 
 RenderResult render(
     const Device& device,
-    const Scene& scene,
+    const UploadedScene& uploaded,
     const RenderSettings& settings,
     const std::function<void(const RenderProgress&)>& progress,
     const std::function<bool()>& stop) {
+    const PreparedScene& prepared = uploaded.prepared;
     RenderResult result;
+    result.times = uploaded.times;
+    result.warnings = uploaded.warnings;
     Stopwatch watch;
-    PreparedScene prepared = prepare(scene, settings.camera, preparation_of(settings, device.info));
-    result.times.normalise = prepared.normalise_seconds;
-    result.times.bvh_build = prepared.bvh_seconds;
-    result.warnings = prepared.placed.warnings;
-    check_lights(scene, prepared, settings.method, result.warnings);
-    check_splits(settings, prepared.media.scatter);
-    const RenderParams params = params_of(scene, prepared, settings);
-    if (!tells_pixels_apart(params))
-        result.warnings.push_back(fmt::format(
-            "{}: single precision does not tell the pixels of camera \"{}\" apart; bring it closer "
-            "or widen its view",
-            scene.name, settings.camera.name));
     const Features features = features_of(
-        scene, prepared, feature_settings_of(settings, is_far_camera(params), device.info));
-    watch.lap();
-    const SceneBuffers buffers(device, scene, prepared);
-    result.times.upload = watch.lap();
-
+        uploaded.scene, prepared, feature_settings_of(settings, uploaded.params, device.info));
     const std::string source =
         assemble_source(features.defines(), QueueManager::kernel_files(features));
     const cl::Program program = build_program(device, source, &result.program);
@@ -264,20 +189,21 @@ RenderResult render(
         {std::max(uint64_t{1} << 20U, uint64_t{4} * pool), units,
          device.info.max_allocation / (CELL_FLOATS * sizeof(cl_float))});
     QueueManager queues(
-        device, program, source, features, buffers, pool, max_cells, settings.work_groups,
+        device, program, source, features, uploaded.buffers, pool, max_cells, settings.work_groups,
         settings.count_lag.value_or(device.info.is_cpu ? 0 : 1), profile);
-    check_memory(device, buffers.bytes() + queues.bytes(), settings);
+    check_memory(device, uploaded.buffers.bytes() + queues.bytes(), settings);
     Film film(device, settings.width, settings.height, max_cells);
     result.film_bytes = film.bytes();
     // Last, so that no buffer takes the place of one it freed: oclgrind mixes them up.
-    warm_up(device, program, source, features, buffers, settings, params);
+    warm_up(device, program, source, features, uploaded.buffers, settings, uploaded.params);
     result.times.program_build = watch.lap();
 
     Schedule schedule(pixels, settings.samples, settings.seconds, pool, max_cells);
-    take_samples(device, settings, params, schedule, queues, film, progress, stop, result);
+    take_samples(device, settings, uploaded.params, schedule, queues, film, progress, stop, result);
     result.film = develop(device, std::move(film), result.samples, result.batches);
     result.outlier = largest_outlier(result.film.image);
-    warn_of_samples(result, scene.name, pixels, features.has_layers && !features.layers_conserve);
+    warn_of_samples(
+        result, uploaded.scene.name, pixels, features.has_layers && !features.layers_conserve);
     result.profile = profile.rows();
     result.device_clock = profile.device_clock();
     result.rays = queues.ray_counts();
@@ -285,8 +211,17 @@ RenderResult render(
     result.iterations = queues.iterations();
     result.pool_bytes = queues.bytes();
     result.guided = features.guide;
-    describe(result, prepared, buffers);
+    describe(result, prepared, uploaded.buffers);
     return result;
+}
+
+RenderResult render(
+    const Device& device,
+    const Scene& scene,
+    const RenderSettings& settings,
+    const std::function<void(const RenderProgress&)>& progress,
+    const std::function<bool()>& stop) {
+    return render(device, upload(device, scene, settings), settings, progress, stop);
 }
 
 }  // namespace wavepath

@@ -72,11 +72,21 @@ struct RenderResult {
 // What settings and cut paths do to the expected value; empty: nothing.
 std::string bias_of(const RenderSettings& settings, const RenderResult& result);
 
+struct UploadedScene;
+
 // `progress` is called after every pass over the picture. `stop` is asked all the time: once it
 // says true the render ends with its pass, or without it where a path does not end
 // (QueueManager::render), and the result is `interrupted`.
-// Throws Error where the scene has no light, or none that the method can find; where the device
-// lacks memory, before rendering.
+// Throws Error where the device lacks memory, before rendering. `settings`: those of upload(), of
+// which `pool` and `work_groups` may differ.
+RenderResult render(
+    const Device& device,
+    const UploadedScene& uploaded,
+    const RenderSettings& settings,
+    const std::function<void(const RenderProgress&)>& progress = {},
+    const std::function<bool()>& stop = [] { return false; });
+
+// The same with upload(), once.
 RenderResult render(
     const Device& device,
     const Scene& scene,

@@ -14,8 +14,6 @@ MOST_FUNCTION_LINES = 60
 # One kernel each: what a stage keeps in registers a second one would store and load again.
 LONG_KERNELS = {"connect_through_media", "direct_light", "find_contacts", "generate_rays", "refract_boundary",
                 "roulette_compact", "sample_distance", "sample_indirect"}
-# Steps in the order in which they have to come; to become shorter, not longer.
-LONG_FUNCTIONS = {"render": 63}
 
 
 def functions(lines):
@@ -44,7 +42,7 @@ def main():
         for function, count in functions(lines):
             if path.suffix == ".cl" and function in LONG_KERNELS:
                 continue
-            if count > LONG_FUNCTIONS.get(function, MOST_FUNCTION_LINES):
+            if count > MOST_FUNCTION_LINES:
                 wrong.append(f"{name}: {function} has {count} lines")
     if wrong:
         sys.exit("\n".join(wrong) + "\nsee tests/lint/sizes.py")
