@@ -33,6 +33,7 @@ std::vector<std::string> words(std::string text) {
 
 KernelParameter parameter(const std::string& text, const std::string& kernel) {
     KernelParameter read;
+    read.declaration = text;
     read.is_buffer = text.find('*') != std::string::npos;
     std::vector<std::string> left = words(text);
     const bool is_const = std::erase(left, "const") > 0;

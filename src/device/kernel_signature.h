@@ -12,6 +12,7 @@ struct KernelParameter {
     std::string type;       // of an element of the buffer, or of the number: "float", "DeviceLight"
     bool is_buffer = true;  // or a number
     bool is_written = false;  // a buffer without const
+    std::string declaration;  // as the kernel has it
 };
 
 // In order. `source`: one text with all macros that the parameters use, as assemble_source gives

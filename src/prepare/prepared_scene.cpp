@@ -48,7 +48,8 @@ PreparedScene prepare(const Scene& scene, const Camera& camera, const Preparatio
         build_light_tables(scene, geometry, preparation.light_choice, preparation.lights_alone);
     out.media = build_media_tables(scene, geometry);
     warnings.insert(warnings.end(), out.media.warnings.begin(), out.media.warnings.end());
-    out.textures = build_texture_tables(scene, out.worn, preparation.page_bytes);
+    out.textures =
+        build_texture_tables(scene, out.worn, preparation.page_bytes, preparation.texture_rows);
     if (preparation.aims) out.guide = guide_to_lights(scene, geometry, out.lights, out.media);
     out.normalise_seconds = watch.lap() - bvh.build_seconds;
 

@@ -16,6 +16,7 @@ struct Preparation {
     bool lights_alone = false;  // no other way finds the environment (build_light_tables)
     bool aims = false;          // directions may be aimed: a guide is looked for
     uint64_t page_bytes = 0;    // most of textures in one buffer
+    bool texture_rows = false;  // of materials also where none has a texture
 };
 
 struct PreparedScene {

@@ -91,9 +91,9 @@ uint32_t TextureTables::pages() const {
 }
 
 TextureTables build_texture_tables(
-    const Scene& scene, const std::vector<bool>& used, uint64_t page_bytes) {
+    const Scene& scene, const std::vector<bool>& used, uint64_t page_bytes, bool always) {
     TextureTables tables;
-    bool needed = false;
+    bool needed = always;
     bool srgb = false;
     bool wide_srgb = false;
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {

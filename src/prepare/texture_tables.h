@@ -18,9 +18,10 @@ struct TextureTables {
 };
 
 // `used`: whether some triangle wears a material. Pages have at most `page_bytes`. Throws Error
-// where TEXTURE_MOST_PAGES of them do not hold all texels.
+// where TEXTURE_MOST_PAGES of them do not hold all texels. `always`: rows also where nothing asks
+// for them.
 TextureTables build_texture_tables(
-    const Scene& scene, const std::vector<bool>& used, uint64_t page_bytes);
+    const Scene& scene, const std::vector<bool>& used, uint64_t page_bytes, bool always = false);
 
 // Luminance of a texture [1], to choose lights by.
 class TextureLuminance {

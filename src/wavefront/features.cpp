@@ -127,13 +127,29 @@ bool branches(const Features& f, const Splits& splits) {
            (f.media_scatter && (splits.directions > 1 || f.distances != Distances::exponential));
 }
 
-void add_traversal(Features& f, const PreparedScene& prepared, bool is_cpu) {
+void add_traversal(Features& f, const PreparedScene& prepared, const FeatureSettings& settings) {
     f.contacts = prepared.has_contacts;
     f.lamp_contacts = prepared.at_lamps.surfaces;
     f.lamps_on_lamps = prepared.at_lamps.lamps;
-    f.ray_packets = is_cpu && prepared.mesh.has_value();
-    if (f.ray_packets || (is_cpu && prepared.placed.bvh.nodes.size() >= stream_nodes))
+    f.megakernel = settings.kernels == Kernels::megakernel;
+    if (f.megakernel || !settings.is_cpu) return;
+    f.ray_packets = prepared.mesh.has_value();
+    if (f.ray_packets || prepared.placed.bvh.nodes.size() >= stream_nodes)
         f.rays_per_item = stream_rays;
+}
+
+// Turns on what leaves every bit of a picture as it is. Not so: vertex attributes and maps, which
+// the scene has no data of; media and splits, which number random dimensions differently; lobes,
+// whose samples are weighed by a quotient where a diffuse surface's are by its base; contacts, far
+// geometry and far cameras, which start rays elsewhere; boundaries that transmit in part, whose
+// materials come in two; and what says which estimator it is.
+void turn_on_the_rest(Features& f) {
+    f.textures = f.emission_textures = f.alpha = true;
+    f.lobe_textures = f.specular;
+    f.transmission = f.transmission || (f.specular && !f.guide);  // guides are for opaque walls
+    f.smooth_walls = true;
+    f.area_lights = f.punctual_lights = f.environment = true;
+    f.matched_media = f.rough_dielectrics = true;
 }
 
 }  // namespace
@@ -156,7 +172,8 @@ Features features_of(
     f.split_levels = branches(f, settings.splits) ? settings.split_depth : 0;
     f.far_camera = settings.far_camera;
     f.sobol = settings.sobol;
-    add_traversal(f, prepared, settings.is_cpu);
+    add_traversal(f, prepared, settings);
+    if (settings.kernels == Kernels::full_features) turn_on_the_rest(f);
     return f;
 }
 

@@ -13,6 +13,13 @@ namespace wavepath {
 // packets.
 constexpr uint32_t stream_rays = 128;
 
+// With which kernels an estimator runs. The picture is the same, bit for bit.
+enum class Kernels {
+    specialised,    // the chain, each stage with what the scene needs
+    full_features,  // the chain, each stage with all that leaves the scene's picture as it is
+    megakernel,     // the stages of the chain in one kernel, which traces whole paths
+};
+
 struct Features {
     bool vertex_normals = false;
     bool vertex_colors = false;
@@ -57,6 +64,7 @@ struct Features {
     bool sobol = true;
     uint32_t rays_per_item = 1;  // 1 or stream_rays
     bool ray_packets = false;    // of stream_rays, eight at a time against a small mesh
+    bool megakernel = false;
 
     bool shading_normals() const { return vertex_normals || normal_maps; }
     // Surfaces that a ray may pass as the same ray.
@@ -78,6 +86,7 @@ struct FeatureSettings {
     bool layers_conserve = true;
     bool far_camera = false;
     bool is_cpu = true;  // the device
+    Kernels kernels = Kernels::specialised;
 };
 
 Features features_of(

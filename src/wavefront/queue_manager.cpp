@@ -1,6 +1,8 @@
 #include "wavefront/queue_manager.h"
 
+#include "device/program.h"
 #include "wavefront/chain.h"
+#include "wavefront/megakernel.h"
 #include "wavefront/sample_plan.h"
 
 #include <algorithm>
@@ -52,12 +54,14 @@ KernelBuffers name_buffers(
     return buffers;
 }
 
-std::vector<std::string> QueueManager::kernel_files(const Features& features) {
+std::string QueueManager::source_of(const Features& features) {
     std::vector<std::string> files;
     visit_stages(features, [&](const std::string& stage, Shape = Shape::slots) {
         files.push_back("stages/" + stage + ".cl");
     });
-    return files;
+    std::string source = assemble_source(features.defines(), files);
+    if (features.megakernel) source += megakernel_text(features, source);
+    return source;
 }
 
 QueueManager::QueueManager(
@@ -78,10 +82,12 @@ QueueManager::QueueManager(
       window_(device, max_cells),
       count_lag_(count_lag) {
     const KernelBuffers buffers = name_buffers(scene, pool_, window_);
-    visit_stages(features, [&](const std::string& stage, Shape shape = Shape::slots) {
+    const auto add = [&](const std::string& stage, Shape shape = Shape::slots) {
         stages_.try_emplace(
             stage, program, source, stage, buffers, launch_size(shape, features, groups), profile);
-    });
+    };
+    visit_stages(features, add);
+    if (features.megakernel) add("megakernel", Shape::traversal);
 }
 
 bool QueueManager::render(
@@ -92,6 +98,10 @@ bool QueueManager::render(
     Work work{slots, 0};
     closest_rays_ += slots;
     launch("assign_units", slots);
+    if (features_.megakernel) {
+        launch("megakernel", slots);
+        work = {};
+    }
     uint64_t iteration = 0;
     uint64_t last_iteration = std::numeric_limits<uint64_t>::max();
     bool stopping = false;

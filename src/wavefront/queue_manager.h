@@ -48,10 +48,10 @@ KernelBuffers name_buffers(
 
 class QueueManager {
   public:
-    // `program`: built from `source`, which holds kernel_files(features). `scene` must outlive
-    // this. `max_cells`: the most units of work of one window. `count_lag`: iterations by which the
-    // host learns late how many slots have work. 0: launches are exact, and the device waits for
-    // the host; 1: it never waits, and idle slots return at their guards.
+    // `program`: built from `source`, which is source_of(features). `scene` must outlive this.
+    // `max_cells`: the most units of work of one window. `count_lag`: iterations by which the host
+    // learns late how many slots have work. 0: launches are exact, and the device waits for the
+    // host; 1: it never waits, and idle slots return at their guards.
     QueueManager(
         const Device& device,
         const cl::Program& program,
@@ -64,8 +64,8 @@ class QueueManager {
         uint32_t count_lag,
         Profile& profile);
 
-    // The kernel files of the chain that these features need.
-    static std::vector<std::string> kernel_files(const Features& features);
+    // The program of the chain that these features need.
+    static std::string source_of(const Features& features);
 
     // Takes the window's samples and folds them into the film. `params` says all but the window.
     // `stop` is asked every iteration. From when it says true the window gets as many more as it

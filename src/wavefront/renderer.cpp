@@ -25,7 +25,8 @@ FeatureSettings feature_settings_of(
         .sobol = settings.sobol,
         .layers_conserve = settings.layers_conserve,
         .far_camera = is_far_camera(params),
-        .is_cpu = device.is_cpu};
+        .is_cpu = device.is_cpu,
+        .kernels = settings.kernels};
 }
 
 // Before the film is made, for a CPU's memory is everybody's.
@@ -176,8 +177,7 @@ RenderResult render(
     Stopwatch watch;
     const Features features = features_of(
         uploaded.scene, prepared, feature_settings_of(settings, uploaded.params, device.info));
-    const std::string source =
-        assemble_source(features.defines(), QueueManager::kernel_files(features));
+    const std::string source = QueueManager::source_of(features);
     const cl::Program program = build_program(device, source, &result.program);
     Profile profile;
     // No more slots and cells than there are units of work.

@@ -29,6 +29,7 @@ struct RenderSettings {
     bool sobol = true;
     bool layers_conserve = true;  // below specular layers, as materials; false: by glTF's letter
     uint32_t pool = 0;            // path slots; 0: the device's default
+    Kernels kernels = Kernels::specialised;
     WorkGroups work_groups;
     std::optional<uint32_t> count_lag;  // QueueManager's; none: 0 on a CPU, 1 elsewhere
 
@@ -78,7 +79,7 @@ struct UploadedScene;
 // says true the render ends with its pass, or without it where a path does not end
 // (QueueManager::render), and the result is `interrupted`.
 // Throws Error where the device lacks memory, before rendering. `settings`: those of upload(), of
-// which `pool` and `work_groups` may differ.
+// which `pool`, `kernels` and `work_groups` may differ.
 RenderResult render(
     const Device& device,
     const UploadedScene& uploaded,

@@ -49,7 +49,8 @@ Preparation preparation_of(const RenderSettings& settings, const DeviceInfo& dev
         .light_choice = settings.method.light_choice,
         .lights_alone = !settings.method.weigh_both,
         .aims = settings.method.guide && settings.method.weigh_both,
-        .page_bytes = device.max_allocation};
+        .page_bytes = device.max_allocation,
+        .texture_rows = settings.kernels == Kernels::full_features};
 }
 
 void check_splits(const RenderSettings& settings, bool media_scatter) {

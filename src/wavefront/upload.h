@@ -22,7 +22,8 @@ struct UploadedScene {
 };
 
 // `scene` must outlive what this returns. Throws Error where the scene has no light, or none that
-// the method can find, and for splits that it can't branch by.
+// the method can find, and for splits that it can't branch by. Only what is uploaded for
+// Kernels::full_features can be rendered by them, and by all others as well.
 UploadedScene upload(const Device& device, const Scene& scene, const RenderSettings& settings);
 
 }  // namespace wavepath

@@ -40,10 +40,6 @@ std::vector<std::string> stages_of(const Features& features) {
     return stages;
 }
 
-std::string source_of(const Features& features) {
-    return assemble_source(features.defines(), QueueManager::kernel_files(features));
-}
-
 TEST(Chain, VisitsEveryKernelFile) {
     std::set<std::string> visited;
     for (const Features& features : {all_features(), without_passages(all_features())})
@@ -58,7 +54,7 @@ TEST(Chain, VisitsEveryKernelFile) {
 TEST(Chain, EveryStageFindsItsBuffers) {
     const KernelBuffers buffers = name_buffers({}, {}, {});
     for (const Features& features : {all_features(), without_passages(all_features())}) {
-        const std::string source = source_of(features);
+        const std::string source = QueueManager::source_of(features);
         for (const std::string& stage : stages_of(features))
             for (const KernelParameter& parameter : kernel_signature(source, stage))
                 if (parameter.is_buffer) {
@@ -99,7 +95,7 @@ TEST(Chain, EveryDefineIsAskedForAndEveryFeatureDefined) {
     };
     const std::regex question("#ifndef (\\w+)");
     const std::set<std::string> given = names(Features{}.defines(), std::regex("#define (\\w+) "));
-    const std::set<std::string> asked = names(source_of(all_features()), question);
+    const std::set<std::string> asked = names(QueueManager::source_of(all_features()), question);
     EXPECT_THAT(given, testing::Each(testing::AnyOfArray(asked)));
     std::set<std::string> features = names(kernel_file("shared/features.h"), question);
     features.erase("WAVEPATH_FEATURES_H");
