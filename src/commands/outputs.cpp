@@ -143,7 +143,11 @@ void check_apart(const Outputs& outputs, std::vector<std::filesystem::path> inpu
 }
 
 void write_outputs(
-    const Device& device, const RenderJob& job, RenderResult& result, const Outputs& outputs) {
+    const Device& device,
+    const RenderJob& job,
+    RenderResult& result,
+    const Outputs& outputs,
+    nlohmann::ordered_json report) {
     const Image& image = result.film.image;
     result.film.image.metadata = metadata(device, job, result);
     const auto fixed = fixed_exposure(outputs);
@@ -171,7 +175,6 @@ void write_outputs(
         });
     if (!outputs.json.empty())
         attempt([&] {
-            nlohmann::ordered_json report = render_report(device, job, result);
             report["exposure_ev"] = exposure;
             AtomicFile(outputs.json).commit(text_of(report, 2) + "\n");
         });

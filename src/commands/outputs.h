@@ -3,6 +3,8 @@
 
 #include "commands/render_options.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace wavepath {
 
 // Thrown when the reasons have been said; main answers with exit status 1.
@@ -31,8 +33,12 @@ struct PathsCut {};
 
 // Writes what can be written and says in a line each what cannot. Throws OutputFailed at the end if
 // there was any such, else Interrupted if a signal stopped the render, else PathsCut if paths were
-// cut.
+// cut. `report`: what --json gets, without `exposure_ev`.
 void write_outputs(
-    const Device& device, const RenderJob& job, RenderResult& result, const Outputs& outputs);
+    const Device& device,
+    const RenderJob& job,
+    RenderResult& result,
+    const Outputs& outputs,
+    nlohmann::ordered_json report);
 
 }  // namespace wavepath

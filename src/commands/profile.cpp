@@ -1,5 +1,7 @@
 #include "commands/profile.h"
 
+#include "commands/baselines.h"
+#include "commands/interrupt.h"
 #include "commands/outputs.h"
 #include "commands/run_job.h"
 
@@ -87,9 +89,23 @@ void add_profile_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("profile", "Time every kernel of a render");
     const auto options = std::make_shared<RenderOptions>();
     const auto outputs = std::make_shared<Outputs>();
+    const auto against = std::make_shared<std::vector<std::string>>();
     add_render_options(*command, *options);
     add_output_options(*command, *outputs);
-    command->callback([options, outputs] { run_job(*options, *outputs, print_profile); });
+    add_baseline_options(*command, *against);
+    command->callback([options, outputs, against] {
+        const std::vector<Baseline> baselines = open_baselines(*against, *options);
+        run_job(
+            *options, *outputs,
+            [&](const Device& device, const RenderJob& job, const RenderResult& result,
+                nlohmann::ordered_json& report) {
+                print_profile(device, job, result);
+                if (!baselines.empty() && !result.interrupted)
+                    report["baselines"] = compare_with(baselines, device, job, result);
+            });
+        // In the comparison: the render's own interruption has been thrown.
+        if (interrupt_signal() != 0) throw Interrupted{interrupt_signal()};
+    });
 }
 
 }  // namespace wavepath

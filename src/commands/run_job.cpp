@@ -2,6 +2,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/progress.h"
+#include "commands/report.h"
 #include "device/driver_failure.h"
 
 #include <spdlog/spdlog.h>
@@ -54,7 +55,7 @@ RenderResult render_watched(const Device& device, const RenderJob& job, bool qui
 
 }  // namespace
 
-void run_job(const RenderOptions& options, Outputs outputs, const PrintResult& print) {
+void run_job(const RenderOptions& options, Outputs outputs, const Inspect& inspect) {
     prepare_signals();
     if (outputs.quiet) spdlog::set_level(spdlog::level::warn);
     check_outputs(outputs);
@@ -63,12 +64,13 @@ void run_job(const RenderOptions& options, Outputs outputs, const PrintResult& p
     const RenderJob job = prepare_job(options);
     check_apart(outputs, job.scene.files);
     RenderResult result = render_watched(device, job, outputs.quiet);
+    nlohmann::ordered_json report = render_report(device, job, result);
     try {
-        if (print) print(device, job, result);
+        if (inspect) inspect(device, job, result, report);
     } catch (const std::system_error&) {
         // The pictures come first; that standard output failed is main's to say.
     }
-    write_outputs(device, job, result, outputs);
+    write_outputs(device, job, result, outputs, std::move(report));
 }
 
 }  // namespace wavepath

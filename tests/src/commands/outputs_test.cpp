@@ -31,7 +31,7 @@ TEST(Outputs, WhatCanBeWrittenIsWrittenAndTheRestIsSaidInALineEach) {
         folder / "gone/a.exr", folder / "b.exr", folder / "gone/c.png", folder / "d.png"};
     outputs.json = folder / "e.json";
     testing::internal::CaptureStdout();  // the logger of tests
-    EXPECT_THROW(write_outputs(device, job, result, outputs), OutputFailed);
+    EXPECT_THROW(write_outputs(device, job, result, outputs, {}), OutputFailed);
     const std::string words = testing::internal::GetCapturedStdout();
     for (const char* name : {"b.exr", "d.png", "e.json"})
         EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
@@ -50,10 +50,10 @@ TEST(Outputs, OfAnInterruptedRenderAreWrittenFirst) {
     result.interrupted = true;
     Outputs outputs;
     outputs.images = {folder / "a.png"};
-    EXPECT_THROW(write_outputs(device, job, result, outputs), Interrupted);
+    EXPECT_THROW(write_outputs(device, job, result, outputs, {}), Interrupted);
     EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
     outputs.images = {folder / "gone/a.png"};
-    EXPECT_THROW(write_outputs(device, job, result, outputs), OutputFailed);
+    EXPECT_THROW(write_outputs(device, job, result, outputs, {}), OutputFailed);
 }
 
 TEST(Progress, GoesOnWhereNobodyListens) {
