@@ -63,6 +63,29 @@ TEST(Chain, EveryStageFindsItsBuffers) {
     }
 }
 
+// The kernel of whole paths calls the chain's stages in its order, each once, and nothing that
+// counts for the host.
+TEST(Chain, AMegakernelHoldsTheStages) {
+    Features features = all_features();
+    features.megakernel = true;
+    const std::string source = QueueManager::source_of(features);
+    const std::string text = source.substr(source.find("kernel void megakernel("));
+    std::vector<std::string> called;
+    const std::regex call("\n {8}(\\w+)\\(settings");
+    for (std::sregex_iterator i(text.begin(), text.end(), call), end; i != end; ++i)
+        called.push_back((*i)[1]);
+    std::vector<std::string> stages = stages_of(features);
+    for (const char* other :
+         {"assign_units", "scatter_queue", "move_paths", "scan_queue", "fold_film"})
+        std::erase(stages, other);
+    EXPECT_EQ(called, stages);
+    const KernelBuffers buffers = name_buffers({}, {}, {});
+    for (const KernelParameter& parameter : kernel_signature(source, "megakernel"))
+        if (parameter.is_buffer) {
+            EXPECT_NO_THROW(buffers.of("megakernel", parameter));
+        }
+}
+
 TEST(Chain, UnknownNamesWrongTypesAndWritesAreRefusedByName) {
     KernelBuffers buffers;
     buffers.add("rays", DeviceArray<cl_float>{}, Access::write);
