@@ -3,7 +3,6 @@
 #include "commands/interrupt.h"
 #include "device/driver_failure.h"
 #include "error.h"
-#include "wavefront/megakernel.h"
 #include "wavefront/upload.h"
 
 #include <fmt/format.h>
@@ -47,17 +46,6 @@ struct Side {
     std::vector<double> seconds = {};  // of each round
     uint64_t differing = 0;
 };
-
-Side side_of(
-    const Baseline& baseline,
-    const Device& device,
-    const UploadedScene& scene,
-    RenderSettings settings) {
-    settings.kernels = baseline.kernels;
-    if (baseline.kernels == Kernels::megakernel && device.info.is_cpu)
-        settings.pool = megakernel_slots;
-    return {device, scene, std::move(settings)};
-}
 
 // Each side once, every other round in the opposite order, so that a machine that slows down
 // favours none. False where a signal ended it.
@@ -179,18 +167,18 @@ nlohmann::ordered_json compare_with(
     spdlog::info("{} rounds against {} more", rounds, baselines.size());
     const InterruptGuard interrupt;
     const DriverFailureGuard driver;
-    // What full features need does not slow others.
     RenderSettings settings = job.settings;
-    settings.kernels = Kernels::full_features;
+    settings.kernels = Kernels::full_features;  // what they need does not slow the others
     const UploadedScene here = upload(device, job.scene, settings);
     std::vector<UploadedScene> elsewhere;
     elsewhere.reserve(baselines.size());
-    std::vector<Side> sides{side_of({}, device, here, job.settings)};
+    std::vector<Side> sides{{device, here, job.settings}};
     for (const Baseline& baseline : baselines) {
-        if (baseline.device) elsewhere.push_back(upload(*baseline.device, job.scene, job.settings));
-        sides.push_back(side_of(
-            baseline, baseline.device ? *baseline.device : device,
-            baseline.device ? elsewhere.back() : here, job.settings));
+        settings.kernels = baseline.kernels;
+        if (baseline.device) elsewhere.push_back(upload(*baseline.device, job.scene, settings));
+        sides.push_back(
+            {baseline.device ? *baseline.device : device, baseline.device ? elsewhere.back() : here,
+             settings});
     }
     for (std::size_t round = 0; round < rounds; ++round)
         if (!play_round(sides, round % 2 == 1, result, interrupt)) break;

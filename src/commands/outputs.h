@@ -5,6 +5,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace wavepath {
 
 // Thrown when the reasons have been said; main answers with exit status 1.

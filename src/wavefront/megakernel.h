@@ -7,10 +7,6 @@
 
 namespace wavepath {
 
-// Path slots of a megakernel on a CPU: it needs enough for all cores to be busy and no more, so
-// that their planes stay in the caches.
-constexpr uint32_t megakernel_slots = 4096;
-
 // The text of `kernel void megakernel`, to stand behind `source`, which holds the stages of these
 // features. A work-item takes its slot through the stages, in the order of the chain, until the
 // slot has no work left. Its parameters are those of all stages together.
