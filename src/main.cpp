@@ -6,6 +6,7 @@
 #include "commands/outputs.h"
 #include "commands/profile.h"
 #include "commands/render.h"
+#include "commands/stress/stress.h"
 #include "device/device.h"
 #include "device/device_probe.h"
 #include "device/opencl.h"
@@ -84,6 +85,7 @@ void add_commands(CLI::App& app) {
     wavepath::add_profile_command(app);
     wavepath::add_chart_command(app);
     wavepath::add_diff_command(app);
+    wavepath::add_stress_command(app);
 }
 
 int run_command_line(int argc, char** argv) {
