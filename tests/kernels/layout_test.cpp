@@ -123,11 +123,11 @@ TEST(Layout, TableHoldsEveryField) {
     std::size_t size = 0;
     for (const Row& row : host_layout) {
         if (row.bytes == 0) {
-            EXPECT_EQ(end, size) << "before " << row.name;
+            EXPECT_EQ(end, size) << "before " << row.name << ": SHARED_LAYOUT lacks a field";
             size = row.place;
             end = 0;
         } else {
-            EXPECT_EQ(row.place, end) << row.name;
+            EXPECT_EQ(row.place, end) << row.name << ": SHARED_LAYOUT lacks a field before it";
             end += row.bytes;
         }
     }

@@ -127,7 +127,7 @@ void add_guides(Chart& chart, const ChartResult& result, bool over_time) {
              .color = grey});
     for (std::size_t i = 0; i < result.curves.size(); ++i) {
         const VariantCurve& curve = result.curves[i];
-        if (curve.verdict != Verdict::biased || !(curve.floor.low > 0)) continue;
+        if (curve.verdict != ChartVerdict::biased || !(curve.floor.low > 0)) continue;
         chart.curves.push_back(
             {.name = "bias of " + curve.label,
              .x = {least, most},

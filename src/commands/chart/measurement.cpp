@@ -18,14 +18,14 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-Verdict verdict_of(const VariantCurve& curve, const Reference& reference) {
-    if (curve.nonfinite_samples > 0) return Verdict::not_finite;
-    if (!curve.bias.empty()) return Verdict::biased;
-    if (curve.tail.infinite_variance) return Verdict::infinite_variance;
+ChartVerdict verdict_of(const VariantCurve& curve, const Reference& reference) {
+    if (curve.nonfinite_samples > 0) return ChartVerdict::not_finite;
+    if (!curve.bias.empty()) return ChartVerdict::biased;
+    if (curve.tail.infinite_variance) return ChartVerdict::infinite_variance;
     const double last = curve.points.back().median_rel_mse();
     // A reference whose own error is not known is taken at its word.
-    if (!(last > 0) || last < reference.rel_mse) return Verdict::below_reference;
-    return Verdict::sound;
+    if (!(last > 0) || last < reference.rel_mse) return ChartVerdict::below_reference;
+    return ChartVerdict::sound;
 }
 
 }  // namespace
@@ -75,17 +75,17 @@ VariantCurve measure_curve(
     return curve;
 }
 
-std::string name_of(Verdict verdict) {
+std::string name_of(ChartVerdict verdict) {
     switch (verdict) {
-        case Verdict::sound:
+        case ChartVerdict::sound:
             return "sound";
-        case Verdict::biased:
+        case ChartVerdict::biased:
             return "biased";
-        case Verdict::infinite_variance:
+        case ChartVerdict::infinite_variance:
             return "infinite variance";
-        case Verdict::not_finite:
+        case ChartVerdict::not_finite:
             return "samples that are not finite";
-        case Verdict::below_reference:
+        case ChartVerdict::below_reference:
             return "as good as the reference";
     }
     return {};
@@ -93,7 +93,7 @@ std::string name_of(Verdict verdict) {
 
 std::optional<std::size_t> winner_of(const std::vector<VariantCurve>& curves) {
     const auto is_ranked = [](const VariantCurve& curve) {
-        return curve.verdict == Verdict::sound && std::isfinite(curve.efficiency.value);
+        return curve.verdict == ChartVerdict::sound && std::isfinite(curve.efficiency.value);
     };
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < curves.size(); ++i)

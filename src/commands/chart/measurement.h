@@ -30,7 +30,7 @@ struct ChartPoint {
     double median_rel_mse() const;
 };
 
-enum class Verdict {
+enum class ChartVerdict {
     sound,
     biased,             // by what its settings say
     infinite_variance,  // so that no error tells what the next one will be
@@ -47,7 +47,7 @@ struct VariantCurve {
     Interval efficiency;                 // of the last point [1/s]
     Interval floor;                      // relMSE that more samples do not take away
     Tail tail;                           // of deviations at the last point
-    Verdict verdict = Verdict::sound;
+    ChartVerdict verdict = ChartVerdict::sound;
 };
 
 // The pictures of all seeds at the last point are needed together; those of other points come and
@@ -58,7 +58,7 @@ VariantCurve measure_curve(
 // Adds the errors of a picture to its point.
 void add_errors(ChartPoint& point, const KeptRender& render, const Reference& reference);
 
-std::string name_of(Verdict verdict);
+std::string name_of(ChartVerdict verdict);
 
 // Of sound curves the most efficient one, if its interval says so against each of the others; with
 // fewer than two sound ones none.
