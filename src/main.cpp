@@ -1,4 +1,5 @@
 #include "commands/devices.h"
+#include "commands/diff.h"
 #include "commands/interrupt.h"
 #include "commands/manual.h"
 #include "commands/outputs.h"
@@ -29,14 +30,17 @@ namespace {
 
 constexpr int exit_failure = 1;
 constexpr int exit_cut = 2;
+constexpr int exit_differ = 3;
 constexpr int exit_signalled = 128;  // plus the signal's number, as in a shell
 
 constexpr const char* notes =
     "Exit status: 0 done; 1 an error, said in one line on standard error; 2 the picture is "
     "written, but\n"
-    "paths without end were cut and their light is missing; 130 interrupted by Ctrl-C, 129 by "
-    "SIGHUP,\n"
-    "143 by SIGTERM, 152 by SIGXCPU: the picture is written with the samples taken so far.\n"
+    "paths without end were cut and their light is missing; 3 pictures differ (diff); 130 "
+    "interrupted\n"
+    "by Ctrl-C, 129 by SIGHUP, 143 by SIGTERM, 152 by SIGXCPU: the picture is written with the "
+    "samples\n"
+    "taken so far.\n"
     "\n"
     "Environment: OCL_ICD_VENDORS, which OpenCL drivers are seen; POCL_MAX_PTHREAD_COUNT, the "
     "cores\n"
@@ -51,7 +55,7 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     std::string what = error.what();
     const std::vector<std::string> rest = app.remaining();
     if (command.empty() && !rest.empty() && !rest.front().starts_with('-'))
-        what = rest.front() + " is no command: render, profile or devices";
+        what = rest.front() + " is no command: render, profile, diff or devices";
     constexpr std::string_view unconverted = "Could not convert: ";  // then: --option = value
     if (what.starts_with(unconverted)) what = what.substr(unconverted.size()) + ": not a number";
     spdlog::error("{}; see wavepath {}--help", what, command);
@@ -83,6 +87,7 @@ int run_command_line(int argc, char** argv) {
     wavepath::add_render_command(app);
     wavepath::add_devices_command(app);
     wavepath::add_profile_command(app);
+    wavepath::add_diff_command(app);
     try {
         wavepath::prepare_environment();
         app.parse(argc, argv);
@@ -91,7 +96,8 @@ int run_command_line(int argc, char** argv) {
         else if (!completion.empty())
             std::fputs(wavepath::bash_completion(app).c_str(), stdout);
         else if (app.get_subcommands().empty()) {
-            spdlog::error("no command given: render, profile or devices; see wavepath --help");
+            spdlog::error(
+                "no command given: render, profile, diff or devices; see wavepath --help");
             return exit_failure;
         }
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
@@ -102,6 +108,8 @@ int run_command_line(int argc, char** argv) {
         return usage_error(app, error);
     } catch (const wavepath::PathsCut&) {
         return exit_cut;
+    } catch (const wavepath::ExpectationsDiffer&) {
+        return exit_differ;
     } catch (const wavepath::Interrupted& interrupted) {
         return exit_signalled + interrupted.signal;
     } catch (const wavepath::OutputFailed&) {

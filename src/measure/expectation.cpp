@@ -266,7 +266,8 @@ std::optional<double> p_of_same_expectation(const Image& a, const Image& b, bool
     const Differences::Statistic observed = differences.observed();
     const double bound = 2 * static_cast<double>(differences.count()) *
                          std::exp(-0.5 * observed.most * observed.most);
-    if (bound < 1.0 / (most_flips + 1)) return bound;
+    constexpr double least = 1e-300;
+    if (bound < 1.0 / (most_flips + 1)) return std::max(bound, least);
 
     std::mt19937_64 random(1);
     std::size_t above = 0;
