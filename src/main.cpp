@@ -5,6 +5,7 @@
 #include "commands/outputs.h"
 #include "commands/profile.h"
 #include "commands/render.h"
+#include "commands/stress/stress.h"
 #include "device/device.h"
 #include "device/device_probe.h"
 #include "device/opencl.h"
@@ -55,7 +56,7 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     std::string what = error.what();
     const std::vector<std::string> rest = app.remaining();
     if (command.empty() && !rest.empty() && !rest.front().starts_with('-'))
-        what = rest.front() + " is no command: render, profile, diff or devices";
+        what = rest.front() + " is no command: render, profile, diff, stress or devices";
     constexpr std::string_view unconverted = "Could not convert: ";  // then: --option = value
     if (what.starts_with(unconverted)) what = what.substr(unconverted.size()) + ": not a number";
     spdlog::error("{}; see wavepath {}--help", what, command);
@@ -88,6 +89,7 @@ int run_command_line(int argc, char** argv) {
     wavepath::add_devices_command(app);
     wavepath::add_profile_command(app);
     wavepath::add_diff_command(app);
+    wavepath::add_stress_command(app);
     try {
         wavepath::prepare_environment();
         app.parse(argc, argv);
@@ -97,7 +99,7 @@ int run_command_line(int argc, char** argv) {
             std::fputs(wavepath::bash_completion(app).c_str(), stdout);
         else if (app.get_subcommands().empty()) {
             spdlog::error(
-                "no command given: render, profile, diff or devices; see wavepath --help");
+                "no command given: render, profile, diff, stress or devices; see wavepath --help");
             return exit_failure;
         }
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

@@ -10,7 +10,7 @@ namespace wavepath {
 struct Tail {
     // alpha with P(|x| > t) ~ t^-alpha: the variance is infinite below 2, the mean below 1.
     // Infinite where the tail ends, or falls faster than any power. NaN for fewer than 30000 values
-    // and for values of which most of the largest are alike.
+    // and where most of the largest deviations are 0.
     Interval index;
     // The whole interval is below 2, and so is what the larger half of the tail says by itself: a
     // law that only begins like a power of below 2 is not flagged.

@@ -7,23 +7,6 @@
 
 namespace wavepath {
 
-inline Medium medium_of(double sigma_t, double albedo, double g = 0) {
-    Medium medium;
-    medium.sigma_a = grey(static_cast<float>(sigma_t * (1 - albedo)));
-    medium.sigma_s = grey(static_cast<float>(sigma_t * albedo));
-    medium.anisotropy = static_cast<float>(g);
-    return medium;
-}
-
-// An index-matched boundary: light passes straight.
-inline Material boundary_of(const Medium& medium) {
-    Material material = lambert(grey(1));
-    material.boundary = Boundary::index_matched;
-    material.transmission = 1;
-    material.medium = medium;
-    return material;
-}
-
 // A smooth dielectric.
 inline Material glass(double ior, const Medium& medium = {}) {
     Material material = boundary_of(medium);

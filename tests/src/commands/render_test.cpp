@@ -164,7 +164,8 @@ TEST_F(RenderCommand, NamesWhatIsNoCommand) {
         EXPECT_EQ(outcome.exit_code, 1);
         EXPECT_EQ(
             outcome.words,
-            "error: rendr is no command: render, profile, diff or devices; see wavepath --help\n");
+            "error: rendr is no command: render, profile, diff, stress or devices; see wavepath "
+            "--help\n");
     }
 }
 
