@@ -70,6 +70,14 @@ void occupy_standard_streams() {
         if (fcntl(fd, F_GETFD) < 0) open("/dev/null", (fd == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
+void add_commands(CLI::App& app) {
+    wavepath::add_render_command(app);
+    wavepath::add_devices_command(app);
+    wavepath::add_profile_command(app);
+    wavepath::add_diff_command(app);
+    wavepath::add_stress_command(app);
+}
+
 int run_command_line(int argc, char** argv) {
     if (wavepath::run_device_probe(argc, argv)) return 0;
     spdlog::set_default_logger(spdlog::stderr_color_st("wavepath"));
@@ -85,11 +93,7 @@ int run_command_line(int argc, char** argv) {
     app.add_option("--completion", completion, "Print the completion script of a shell")
         ->check(CLI::IsMember({"bash"}))
         ->group("");
-    wavepath::add_render_command(app);
-    wavepath::add_devices_command(app);
-    wavepath::add_profile_command(app);
-    wavepath::add_diff_command(app);
-    wavepath::add_stress_command(app);
+    add_commands(app);
     try {
         wavepath::prepare_environment();
         app.parse(argc, argv);

@@ -70,6 +70,11 @@ Table table_of(const std::vector<Cell>& cells, const std::string& family, const 
     return table;
 }
 
+// A variance that is more than rounding; else 0, which a logarithmic axis leaves out.
+double shown(double relative_variance) {
+    return relative_variance > 1e-12 ? relative_variance : 0;
+}
+
 // Relative variance against what the family varies: as measured, and as predicted.
 Chart chart_of(const std::vector<Cell>& cells, const std::string& family, const Axes& axes) {
     Chart chart;
@@ -88,10 +93,10 @@ Chart chart_of(const std::vector<Cell>& cells, const std::string& family, const 
             const Cell* cell = find(cells, family, axes.methods[m], row);
             if (!cell) continue;
             measured.x.push_back(row);
-            measured.y.push_back(cell->judgement.relative_variance);
+            measured.y.push_back(shown(cell->judgement.relative_variance));
             if (!cell->situation.relative_variance) continue;
             predicted.x.push_back(row);
-            predicted.y.push_back(*cell->situation.relative_variance);
+            predicted.y.push_back(shown(*cell->situation.relative_variance));
         }
         chart.curves.push_back(measured);
         if (predicted.x.size() > 1) chart.curves.push_back(predicted);
@@ -99,10 +104,11 @@ Chart chart_of(const std::vector<Cell>& cells, const std::string& family, const 
     return chart;
 }
 
-// Whether some variance is more than rounding, so that there is something to draw.
+// Whether there is something to draw.
 bool varies(const std::vector<Cell>& cells, const std::string& family, const Axes& axes) {
     return axes.rows.size() > 1 && std::ranges::any_of(cells, [&](const Cell& cell) {
-               return cell.situation.family == family && cell.judgement.relative_variance > 1e-12;
+               return cell.situation.family == family &&
+                      shown(cell.judgement.relative_variance) > 0;
            });
 }
 
@@ -111,14 +117,11 @@ bool varies(const std::vector<Cell>& cells, const std::string& family, const Axe
 std::string words_of(const Cell& cell) {
     const Judgement& j = cell.judgement;
     std::string text = fmt::format(
-        "mean {:.5g} +- {:.1g} of the truth, relative variance {:.3g}", j.mean, j.standard_error,
-        j.relative_variance);
+        "mean {:.5g} +- {:.1g}, rv {:.3g}", j.mean, j.standard_error, j.relative_variance);
     if (cell.situation.relative_variance)
-        text += fmt::format(" ({:.3g} predicted)", *cell.situation.relative_variance);
-    if (j.tail.index.value < 4)
-        text += fmt::format(
-            ", tail index {:.2f} ({:.2f} to {:.2f}), slope {:.2f}", j.tail.index.value,
-            j.tail.index.low, j.tail.index.high, j.slope.value);
+        text += fmt::format(" ({:.3g})", *cell.situation.relative_variance);
+    if (j.tail.infinite_variance)
+        text += fmt::format(", tail index {:.2f}, slope {:.2f}", j.tail.index.value, j.slope.value);
     if (j.nonfinite > 0) text += fmt::format(", {} samples not finite", j.nonfinite);
     return text;
 }
@@ -167,9 +170,9 @@ void write_matrix(
     const auto unexpected =
         std::ranges::count_if(cells, [](const Cell& cell) { return !cell.as_expected(); });
     page.paragraph(fmt::format(
-        "{} cells on {}: {} verdicts differ from those expected. A mean is relative to the closed "
-        "form, with its standard error. Noisy: a relative variance above {}, so that an error of "
-        "1 % takes more than {} samples.",
+        "{} cells on {}: {} verdicts differ from those expected. Means are relative to the closed "
+        "form, with their standard error; rv is the relative variance of one sample, in brackets "
+        "as predicted. Noisy: an rv above {}, so that an error of 1 % takes more than {} samples.",
         cells.size(), device, unexpected, noisy_variance, 1e4 * noisy_variance));
     std::vector<std::string> families;
     for (const Cell& cell : cells) append_new(families, cell.situation.family);

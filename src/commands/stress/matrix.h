@@ -17,7 +17,8 @@ struct Cell {
     bool as_expected() const { return judgement.verdict == situation.expected; }
 };
 
-// "mean 0.469 +- 0.001 of the truth, relative variance 3.2": one line.
+// "mean 0.98 +- 0.01, rv 3.2 (3.18)": relative to the truth, relative variance of one sample, and
+// that as predicted; where the variance is infinite the tail's index and the error's slope.
 std::string words_of(const Cell& cell);
 
 // Schema 1 of docs/stress.md.
