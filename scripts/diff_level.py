@@ -2,9 +2,9 @@
 """Asks whether the p-value of `wavepath diff` holds its level on renders of many pairs of seeds.
 
     scripts/diff_level.py scenes/cornell_box/scene.gltf                          1000 pairs at 32x32, 8 samples: 20 minutes
-    scripts/diff_level.py SCENE --pairs 300 --b "--method path" -- --spp 64      A by `mis`, B by `path`, both with 64
+    scripts/diff_level.py SCENE --pairs 300 --both "--spp 64" --b "--method path"      A by `mis`, B by `path`, both with 64
 
-What stands behind -- goes to both renders. Prints how many p-values are below some levels, and the largest distance of
+Prints how many p-values are below some levels, and the largest distance of
 their distribution from the uniform one with what Kolmogorov allows at 1 %. Needs build/wavepath.
 """
 import argparse
@@ -27,8 +27,8 @@ def run(*words):
 
 def p_of_pair(options, first_seed, folder):
     for name, own, seed in (("a", options.a, first_seed), ("b", options.b, first_seed + 1)):
-        run("render", options.scene, "--size", options.size, "--quiet", "--seed", seed, *options.render,
-            *shlex.split(own), "-o", folder / f"{name}.exr")
+        run("render", options.scene, "--size", options.size, "--quiet", "--seed", seed,
+            *shlex.split(f"{options.both} {own}"), "-o", folder / f"{name}.exr")
     run("diff", folder / "a.exr", folder / "b.exr", "--json", folder / "diff.json")
     return json.loads((folder / "diff.json").read_text())["p_same_expectation"]
 
@@ -40,7 +40,7 @@ def main():
     parser.add_argument("--size", default="32x32")
     parser.add_argument("--a", default="", help="options of A alone")
     parser.add_argument("--b", default="", help="options of B alone")
-    parser.add_argument("render", nargs="*", default=["--spp", "8"], help="options of both")
+    parser.add_argument("--both", default="--spp 8", help="options of both")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         told = [p_of_pair(options, 1 + 2 * k, Path(folder)) for k in range(options.pairs)]

@@ -5,6 +5,7 @@
 #include "page/page_text.h"
 
 #include <charconv>
+#include <cmath>
 
 namespace wavepath {
 
@@ -33,10 +34,11 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-// Begins as a number does: "12", "-1.5e-3", ".98 to 1.02", "7 %".
+// Begins as a number does: "12", "-1.5e-3", ".98 to 1.02", "7 %"; "infinite" does not.
 bool is_number(const std::string& text) {
     double value = 0;
-    return std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc{};
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && std::isfinite(value);
 }
 
 std::string row_of(
