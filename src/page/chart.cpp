@@ -97,7 +97,7 @@ std::string style_of(const Curve& curve) {
 std::string script_of(const Chart& chart, const std::filesystem::path& output) {
     std::string script = fmt::format(
         "set encoding utf8\nset terminal svg size 880,{} dynamic font 'sans-serif,15'\n"
-        "set output {}\nset border 3\nset pointintervalbox 0\nset tics nomirror\nset grid lc rgb '#888888' lw .3 lt 1\n"
+        "set output {}\nset border 3\nset tics nomirror\nset grid lc rgb '#888888' lw .3 lt 1\n"
         "set key outside right top Left reverse noenhanced samplen 2 spacing 1.2\n"
         "set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n",
         chart.bars.empty() ? 480 : 560, quoted(output.string()), quoted(chart.title),
@@ -121,7 +121,7 @@ std::string script_of(const Chart& chart, const std::filesystem::path& output) {
             title);
         if (!curve.low.empty())
             plots += fmt::format(
-                ", $curve{} using 1:2:3:4 with yerrorbars pt 0 lc rgb '{}' notitle", i,
+                ", $curve{} using 1:3:(0):($4-$3) with vectors nohead lw 2 lc rgb '{}' notitle", i,
                 palette[static_cast<std::size_t>(curve.color) % palette.size()]);
     }
     // gnuplot refuses to draw nothing.
