@@ -1,5 +1,6 @@
 #include "commands/diff.h"
 
+#include "commands/output_folder.h"
 #include "commands/render_command.h"
 #include "error.h"
 #include "film/auto_exposure.h"
@@ -199,12 +200,7 @@ void run_diff(const DiffOptions& options) {
     if (!options.json.empty()) check_writable(options.json);
     const Diff diff = measure(options);
     if (!options.folder.empty()) {
-        std::error_code failure;
-        std::filesystem::create_directories(options.folder, failure);
-        if (failure)
-            throw Error(
-                "{}: cannot be made: {}; name another folder", options.folder.string(),
-                failure.message());
+        make_output_folder(options.folder, "index.html");
         write_page(options, diff);
     }
     const std::string json = text_of(json_of(options, diff));

@@ -2,6 +2,7 @@
 
 #include "commands/baselines.h"
 #include "commands/interrupt.h"
+#include "commands/output_folder.h"
 #include "commands/outputs.h"
 #include "commands/profile_page.h"
 #include "commands/profile_tables.h"
@@ -70,13 +71,7 @@ void run_profile(
     const std::filesystem::path page = folder / "page.html";
     if (!folder.empty()) {
         check_gnuplot();
-        std::error_code failure;
-        std::filesystem::create_directories(folder, failure);
-        if (failure)
-            throw Error(
-                "{}: no folder can be made there: {}; choose another", folder.string(),
-                failure.message());
-        check_writable(page);
+        make_output_folder(folder, "page.html");
         if (outputs.json.empty()) outputs.json = folder / "profile.json";
         if (outputs.trace.empty()) outputs.trace = folder / "trace.json";
     }

@@ -109,9 +109,12 @@ void write_profile_page(
         "most of them.");
     page.chart(roofline_chart(roofline));
     page.table(roofline_table(roofline));
-    page.heading("How full the pool is");
-    page.chart(slots_chart(*result.timeline));
-    page.paragraph("trace.json, beside this page, shows every launch: open it in ui.perfetto.dev.");
+    if (result.timeline) {  // there is none where the trace cannot be written
+        page.heading("How full the pool is");
+        page.chart(slots_chart(*result.timeline));
+        page.paragraph(
+            "trace.json, beside this page, shows every launch: open it in ui.perfetto.dev.");
+    }
     page.heading("How long paths are");
     page.chart(depth_chart(result.rays));
     page.table(depth_table(result.rays));

@@ -1,12 +1,13 @@
 #include "commands/render_command.h"
 
+#include "commands/shell_word.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <vector>
 
 namespace wavepath {
@@ -14,15 +15,6 @@ namespace wavepath {
 namespace {
 
 using nlohmann::json;
-
-std::string quoted(const std::string& word) {
-    constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/:,+-=";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
 
 // Numbers of an array, by commas.
 std::string list_of(const json& values) {
@@ -41,7 +33,7 @@ std::string view_options(const json& settings) {
         for (std::size_t k = 12; k < 15; ++k)
             text += fmt::format("{}{}", to_world[k] - to_world[k - 4], k < 14 ? "," : "");
     } else if (camera != "overview") {
-        text += " --camera " + quoted(camera);
+        text += " --camera " + shell_word(camera);
     }
     if (!settings.at("y_fov_deg").is_null() && camera != "overview")
         text += " --fov " + settings.at("y_fov_deg").dump();
@@ -53,7 +45,7 @@ std::string light_options(const json& settings) {
     const json& environment = settings.at("environment");
     if (!environment.is_null()) {
         const auto map = environment.at("map").get<std::string>();
-        if (!map.empty()) text += " --env " + quoted(map);
+        if (!map.empty()) text += " --env " + shell_word(map);
         text += " --env-radiance " + list_of(environment.at("radiance"));
     }
     if (settings.at("lumens_per_watt") != 1)
@@ -70,7 +62,7 @@ std::string option_words(const json& settings) {
         {"direction", "--direction"},     {"scene_of_file", "--scene"}};
     for (const auto& [key, option] : words) {
         const std::string value = settings.value(key, "");
-        if (!value.empty()) text += " " + option + " " + quoted(value);
+        if (!value.empty()) text += " " + option + " " + shell_word(value);
     }
     if (!settings.at("guide").get<bool>()) text += " --guide off";
     if (settings.at("splits") != json{1, 1, 1})
@@ -87,7 +79,7 @@ std::string render_command(const Image& image) {
         const json settings = json::parse(image.metadata.at("wavepath.settings"));
         return fmt::format(
             "wavepath render {} --size {}x{} --spp {} --seed {}{}{}{}",
-            quoted(image.metadata.at("wavepath.scene")), image.width, image.height,
+            shell_word(image.metadata.at("wavepath.scene")), image.width, image.height,
             image.metadata.at("wavepath.samples"), settings.at("seed").dump(),
             view_options(settings), light_options(settings), option_words(settings));
     } catch (const std::exception&) {  // another program's, or an older one's

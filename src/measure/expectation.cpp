@@ -257,11 +257,17 @@ Differences::Statistic Differences::statistic(const Signs& signs) {
     return found;
 }
 
+bool has_finite_pixels(const Image& a, const Image& b) {
+    std::size_t pixels = 0;
+    visit_finite_pixels([&](std::size_t, const Radiance&, const Radiance&) { ++pixels; }, a, b);
+    return pixels > 0;
+}
+
 }  // namespace
 
 std::optional<double> p_of_same_expectation(const Image& a, const Image& b, bool exchangeable) {
     Differences differences(a, b, exchangeable);
-    if (differences.none()) return 1;
+    if (differences.none() && has_finite_pixels(a, b)) return 1;
     if (differences.count() == 0) return std::nullopt;
     const Differences::Statistic observed = differences.observed();
     const double bound = 2 * static_cast<double>(differences.count()) *

@@ -25,7 +25,8 @@ namespace wavepath {
 //
 // Random signs go on until 100 gave more, or 9999 were tried [Besag & Clifford 1991]. Below 1e-4
 // the value is the bound of [Hoeffding 1963], over all tiles. The same pictures give the same
-// value. 1 where nothing differs; none where too few pixels differ, or too few carry the noise.
+// value. 1 where nothing differs; none where no pixel is finite in both, too few pixels differ, or
+// too few carry the noise.
 //
 // A and B have to be comparable (measure/pixels.h); pixels that are not finite are left out.
 std::optional<double> p_of_same_expectation(const Image& a, const Image& b, bool exchangeable);

@@ -41,8 +41,10 @@ for (const group of document.querySelectorAll('.pictures')) {
   for (const view of views) {
     view.tabIndex = 0;
     view.addEventListener('wheel', event => {
+      if (scale === 1 && event.deltaY > 0) return;  // the page scrolls
       event.preventDefault();
-      zoom(Math.exp(-event.deltaY / 400), event.offsetX, event.offsetY);
+      const box = view.getBoundingClientRect();
+      zoom(Math.exp(-event.deltaY / 400), event.clientX - box.left, event.clientY - box.top);
     }, {passive: false});
     view.addEventListener('pointerdown', event => view.setPointerCapture(event.pointerId));
     view.addEventListener('pointermove', event => {

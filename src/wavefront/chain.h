@@ -1,4 +1,4 @@
-// The chain of stages, in order: what is listed, built and launched.
+// The chain of stages, in order: what is listed, built and, one segment after the other, launched.
 #pragma once
 
 #include "wavefront/features.h"
@@ -42,7 +42,7 @@ void iterate(const Features& f, Run&& run, Compact&& compact) {
     run("scan_queue", Shape::chunks);
 }
 
-// Every stage of a window, once.
+// Every stage of a window, once. Those around the segments are launched by QueueManager, by name.
 template <typename Run>
 void visit_stages(const Features& f, Run&& run) {
     run("assign_units");

@@ -2,11 +2,12 @@
 
 #include "commands/chart/chart_run.h"
 #include "commands/interrupt.h"
+#include "commands/output_folder.h"
+#include "commands/shell_word.h"
 #include "device/driver_failure.h"
 #include "error.h"
 #include "page/chart.h"
 
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -38,50 +39,45 @@ void add_options(CLI::App& app, ChartOptions& o) {
         ->check(CLI::Range(int64_t{1}, int64_t{0xFFFFFFFF}));
 }
 
-std::string quoted(const std::string& word) {
-    constexpr const char* plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+=";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string result = "'";
-    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
-}
-
-// The options of `app` that were given, but for those of the names in `without`.
-std::string given_options(const CLI::App& app, const std::vector<std::string>& without) {
+// The options of `app` that were given.
+std::string given_options(const CLI::App& app) {
     std::string text;
     for (const CLI::Option* option : app.get_options()) {
         if (option->count() == 0) continue;
-        const std::string name = option->get_name();
-        if (std::ranges::find(without, name) != without.end()) continue;
-        if (!option->get_positional()) text += " " + name;
-        for (const std::string& value : option->results()) text += " " + quoted(value);
+        if (!option->get_positional()) text += fmt::format(" {}", option->get_name());
+        for (const std::string& value : option->results())
+            text += fmt::format(" {}", shell_word(value));
     }
     return text;
 }
 
-void chart(const CLI::App& app, ChartOptions& options) {
-    prepare_signals();
+void check_options(const CLI::App& app, const ChartOptions& options) {
     if (options.render.time || options.render.target_error)
         throw Error("--time and --target-error: give --budget, --times or --spp to a chart");
     if (int{options.render.spp.has_value()} + int{options.budget.has_value()} +
             int{!options.times.empty()} >
         1)
         throw Error("--spp, --budget and --times: give one of them");
+    for (const char* name : {"--method", "--seed"})
+        if (app.count(name) > 0)
+            throw Error("{}: a chart takes --methods, and seeds from 1 to --seeds", name);
+}
+
+void chart(const CLI::App& app, ChartOptions& options) {
+    prepare_signals();
+    check_options(app, options);
     check_gnuplot();
-    options.chart_command = "wavepath chart" + given_options(app, {});
-    options.render_command =
-        "wavepath render" +
-        given_options(
-            app, {"--output", "--methods", "--budget", "--times", "--seeds", "--reference",
-                  "--reference-spp", "--spp", "--seed", "--method"});
+    make_output_folder(options.folder, "chart.html");
+    options.command = "wavepath chart" + given_options(app);
     const RenderJob job = prepare_job(options.render);
     for (const std::string& line : job.scene.ignored) spdlog::warn("{}: {}", job.scene.name, line);
+    const std::vector<Variant> variants = parse_variants(options.methods, options.render, job);
+    const Devices devices = open_devices(variants, options.render.device);
     ChartResult result;
     {
         const InterruptGuard interrupt;
         const DriverFailureGuard driver;
-        result = run_chart(options, job, [&] { return interrupt.requested(); });
+        result = run_chart(options, job, variants, devices, [&] { return interrupt.requested(); });
     }
     write_chart(result, options.folder);
     spdlog::info("wrote {}", (options.folder / "chart.html").string());

@@ -1,5 +1,6 @@
 #include "commands/chart/chart_page.h"
 
+#include "commands/render_command.h"
 #include "commands/report.h"
 #include "film/auto_exposure.h"
 #include "image/atomic_file.h"
@@ -57,6 +58,7 @@ ordered_json curve_json(const VariantCurve& curve) {
         {"tail_index", interval(curve.tail.index)},
         {"share_of_largest", number(curve.tail.share_of_largest)},
         {"variance_of_variance", number(curve.tail.variance_of_variance)},
+        {"reference_rel_mse", number(curve.reference_rel_mse)},
         {"nonfinite_samples", curve.nonfinite_samples}};
 }
 
@@ -175,14 +177,16 @@ Table table_of(const ChartResult& result) {
         "slope, time",
         "floor of relMSE",
         "tail index",
-        "share of the largest"};
+        "share of the largest",
+        "relMSE of the reference"};
     for (const VariantCurve& curve : result.curves) {
         const ChartPoint& last = curve.points.back();
         table.rows.push_back(
             {curve.label, name_of(curve.verdict), std::to_string(last.samples),
              text(last.median_seconds()), text(last.median_rel_mse()), text(curve.efficiency),
              text(curve.slope_samples), text(curve.slope_time), text(curve.floor),
-             text(curve.tail.index), text(curve.tail.share_of_largest)});
+             text(curve.tail.index), text(curve.tail.share_of_largest),
+             text(curve.reference_rel_mse)});
     }
     return table;
 }
@@ -202,7 +206,7 @@ void add_pictures(Page& page, const ChartResult& result, const std::filesystem::
     const double exposure = auto_exposure(result.reference.half1);
     std::vector<Picture> pictures;
     write_png(result.reference.half1, folder / "reference.png", exposure);
-    pictures.push_back({"reference", "reference.png", ""});
+    pictures.push_back({"reference", "reference.png", render_command(result.reference.half1)});
     for (std::size_t i = 0; i < result.pictures.size(); ++i) {
         const ChartPicture& picture = result.pictures[i];
         const VariantCurve& curve = result.curves[picture.variant];
@@ -216,8 +220,7 @@ void add_pictures(Page& page, const ChartResult& result, const std::filesystem::
             folder / errors, 0);
         const std::string what =
             fmt::format("{}: {} samples, {:.3g} s", curve.label, picture.samples, picture.seconds);
-        pictures.push_back(
-            {what, name, fmt::format("{} --spp {} --seed 1", curve.command, picture.samples)});
+        pictures.push_back({what, name, render_command(picture.image)});
         pictures.push_back({what + ", error", errors, ""});
     }
     page.heading("Pictures at equal time");
@@ -232,7 +235,9 @@ void add_pictures(Page& page, const ChartResult& result, const std::filesystem::
 }  // namespace
 
 void write_chart(const ChartResult& result, const std::filesystem::path& folder) {
-    AtomicFile(folder / "chart.json").commit(chart_json(result).dump(2) + "\n");
+    AtomicFile(folder / "chart.json")
+        .commit(
+            chart_json(result).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
     AtomicFile(folder / "chart.csv").commit(chart_csv(result));
     Page page(fmt::format("{}: error against time", result.scene));
     page.paragraph(fmt::format(
@@ -246,7 +251,8 @@ void write_chart(const ChartResult& result, const std::filesystem::path& folder)
     page.heading("What the columns mean");
     page.paragraph(fmt::format(
         "relMSE is the mean of (A - R)^2 / (R^2 + 0.01) over pixels and channels. {} Its own "
-        "relMSE is {}: errors below that are not ranked.",
+        "relMSE is {}; errors below that of a setting's reference, in the last column, are not "
+        "ranked.",
         result.reference.text, text(result.reference.rel_mse)));
     page.paragraph(
         "Efficiency is 1 / (relMSE x time). The floor is the squared bias, which more samples do "

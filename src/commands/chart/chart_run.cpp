@@ -1,10 +1,10 @@
 #include "commands/chart/chart_run.h"
 
 #include "commands/interrupt.h"
+#include "commands/render_command.h"
 #include "error.h"
 #include "image/exr_writer.h"
 #include "measure/picture_error.h"
-#include "measure/pixels.h"
 
 #include <spdlog/spdlog.h>
 
@@ -17,10 +17,11 @@ namespace wavepath {
 namespace {
 
 constexpr uint64_t first_samples = 4;
-constexpr uint64_t step = 4;                  // from one number of samples to the next
-constexpr uint64_t pilot_samples = 16;        // by which the time of others is foreseen
-constexpr double default_budget = 4;          // [s]
-constexpr uint32_t reference_seed = 1000001;  // measured renders count from 1
+constexpr uint64_t step = 4;                   // from one number of samples to the next
+constexpr uint64_t pilot_samples = 16;         // by which the time of others is foreseen
+constexpr double default_budget = 4;           // [s]
+constexpr uint32_t reference_seed = 1000001;   // measured renders count from 1
+constexpr uint64_t most_samples = 0xFFFFFFFF;  // as --spp has it
 
 std::vector<double> parse_times(const std::string& text) {
     std::vector<double> times;
@@ -38,7 +39,7 @@ std::vector<double> parse_times(const std::string& text) {
     return times;
 }
 
-// 4, 16, 64, ... and `most` itself.
+// 4, 16, 64, ... and `most` itself, which is at most most_samples.
 std::vector<uint64_t> ladder_to(uint64_t most) {
     std::vector<uint64_t> samples;
     for (uint64_t n = first_samples; n < most; n *= step) samples.push_back(n);
@@ -50,7 +51,8 @@ std::vector<uint64_t> ladder_to(uint64_t most) {
 std::vector<uint64_t> samples_for(const std::vector<double>& times, double rate) {
     std::vector<uint64_t> samples;
     for (const double t : times) {
-        const auto n = static_cast<uint64_t>(std::max(1.0, std::round(rate * t)));
+        const double wanted = std::clamp(std::round(rate * t), 1.0, double{most_samples});
+        const auto n = static_cast<uint64_t>(wanted);
         if (samples.empty() || samples.back() < n) samples.push_back(n);
     }
     return samples;
@@ -65,31 +67,38 @@ std::vector<std::filesystem::path> files_of(const ChartOptions& options, const R
 
 class ChartRun {
   public:
-    ChartRun(const ChartOptions& options, const RenderJob& job, const std::function<bool()>& stop)
+    ChartRun(
+        const ChartOptions& options,
+        const RenderJob& job,
+        const std::vector<Variant>& variants,
+        const Devices& devices,
+        const std::function<bool()>& stop)
         : options_(options),
           job_(job),
           stop_(stop),
-          variants_(parse_variants(options.methods, options.render, job)),
-          renders_(options.folder / "renders", job, files_of(options, job)) {
+          wanted_(variants),
+          renders_(options.folder / "renders", job, files_of(options, job), devices) {
         result_.scene = job.scene.name;
         result_.width = job.settings.width;
         result_.height = job.settings.height;
-        result_.command = options.chart_command;
+        result_.command = options.command;
+        result_.device = devices.at(variants.front().device).info.name;
     }
 
     ChartResult run() {
         try {
+            if (!options_.reference.empty()) make_references();
             plan();
-            make_references();
+            if (options_.reference.empty()) make_references();
             for (uint32_t seed = 1; seed <= options_.seeds; ++seed) {
                 for (std::size_t i = 0; i < variants_.size(); ++i) measure(i, seed);
                 result_.seeds = seed;
             }
         } catch (const Interrupted&) {
+            spdlog::warn("interrupted: the same command goes on with what was rendered so far");
             if (result_.seeds == 0) throw;
             result_.interrupted = true;
         }
-        result_.device = renders_.device(variants_.front().device).info.name;
         for (std::size_t i = 0; i < variants_.size(); ++i)
             result_.curves[i] = measure_curve(
                 std::move(result_.curves[i]), last_pictures_[i], reference_of(variants_[i]));
@@ -103,26 +112,36 @@ class ChartRun {
         return renders_.get(variants_[variant], samples, seed, stop_);
     }
 
-    // Which numbers of samples each variant takes, where times are asked for by a pilot's time.
-    void plan() {
+    // Which numbers of samples a variant takes, where times are asked for by a pilot's time.
+    std::vector<uint64_t> samples_of(const Variant& variant) {
         const std::vector<double> times = parse_times(options_.times);
-        for (std::size_t i = 0; i < variants_.size(); ++i) {
-            VariantCurve& curve = result_.curves.emplace_back();
-            curve.label = variants_[i].label;
-            curve.command = options_.render_command + " --method " + curve.label;
+        const uint64_t most = options_.render.spp.value_or(pilot_samples);
+        const double seconds =
+            renders_.get(variant, std::min(most, pilot_samples), 1, stop_).seconds;
+        if (options_.render.spp) return ladder_to(most);
+        const double rate = static_cast<double>(pilot_samples) / seconds;
+        if (!times.empty()) return samples_for(times, rate);
+        return ladder_to(samples_for({options_.budget.value_or(default_budget)}, rate).front());
+    }
+
+    void plan() {
+        std::string reason;
+        for (const Variant& variant : wanted_) {
             std::vector<uint64_t> samples;
-            if (options_.render.spp) {
-                samples = ladder_to(*options_.render.spp);
-            } else {
-                const double rate =
-                    static_cast<double>(pilot_samples) / render(i, pilot_samples, 1).seconds;
-                const double budget = options_.budget.value_or(default_budget);
-                samples = times.empty() ? ladder_to(samples_for({budget}, rate).front())
-                                        : samples_for(times, rate);
+            try {
+                samples = samples_of(variant);
+            } catch (const Error& error) {
+                reason = fmt::format("\"{}\": {}", variant.label, error.what());
+                spdlog::warn("{}; it is left out", reason);
+                continue;
             }
+            variants_.push_back(variant);
+            VariantCurve& curve = result_.curves.emplace_back();
+            curve.label = variant.label;
             for (const uint64_t n : samples) curve.points.emplace_back().samples = n;
             most_samples_ = std::max(most_samples_, samples.back());
         }
+        if (variants_.empty()) throw Error("nothing is left to compare: {}", reason);
         last_pictures_.resize(variants_.size());
     }
 
@@ -147,12 +166,18 @@ class ChartRun {
             reference.text = fmt::format(
                 "R is {}, whose own error is not known and is in all that follows.",
                 options_.reference.string());
+            check_size(reference.half1);
             references_ = {reference, reference};
         }
-        const KeptRender first = render(0, result_.curves[0].points[0].samples, 1);
-        check_comparable(
-            first.image, variants_[0].label, references_[0].half1, options_.reference.string());
         result_.reference = references_[0];
+    }
+
+    void check_size(const Image& reference) const {
+        if (reference.width != result_.width || reference.height != result_.height)
+            throw Error(
+                "--reference {}: has {} x {} pixels, and the picture {} x {}; give --size",
+                options_.reference.string(), reference.width, reference.height, result_.width,
+                result_.height);
     }
 
     Reference render_reference(const std::string& method) {
@@ -161,7 +186,8 @@ class ChartRun {
         options.termination = "roulette";
         Variant variant = parse_variants(method, options, job_).front();
         variant.label = "reference by " + method;
-        const uint64_t samples = options_.reference_spp.value_or(4 * most_samples_);
+        const uint64_t samples =
+            options_.reference_spp.value_or(std::min(4 * most_samples_, most_samples));
         spdlog::info("reference: two halves of {} samples by {}", samples, method);
         Reference reference;
         reference.half1 = renders_.get(variant, samples, reference_seed, stop_).image;
@@ -189,6 +215,7 @@ class ChartRun {
             curve.nonfinite_samples += renders[k].nonfinite_samples;
         }
         curve.bias = renders.back().bias;
+        curve.command = render_command(renders.back().image);
         last_pictures_[i].push_back(std::move(renders.back().image));
         const ChartPoint& last = curve.points.back();
         spdlog::info(
@@ -215,8 +242,9 @@ class ChartRun {
     const ChartOptions& options_;
     const RenderJob& job_;
     const std::function<bool()>& stop_;
-    std::vector<Variant> variants_;
+    const std::vector<Variant>& wanted_;
     KeptRenders renders_;
+    std::vector<Variant> variants_;  // that can be rendered
     uint64_t most_samples_ = 0;
     std::vector<Reference> references_;  // of all but mis, of mis
     std::vector<std::vector<Image>> last_pictures_;
@@ -226,8 +254,12 @@ class ChartRun {
 }  // namespace
 
 ChartResult run_chart(
-    const ChartOptions& options, const RenderJob& job, const std::function<bool()>& stop) {
-    return ChartRun(options, job, stop).run();
+    const ChartOptions& options,
+    const RenderJob& job,
+    const std::vector<Variant>& variants,
+    const Devices& devices,
+    const std::function<bool()>& stop) {
+    return ChartRun(options, job, variants, devices, stop).run();
 }
 
 }  // namespace wavepath

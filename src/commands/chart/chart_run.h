@@ -20,13 +20,17 @@ struct ChartOptions {
     std::string times;                      // [s], by commas; empty: by `budget`
     uint32_t seeds = 3;
     std::filesystem::path folder;
-    std::string render_command;  // of one render, without what decides the variant
-    std::string chart_command;
+    std::string command;
 };
 
 // Renders what is not in the folder yet. Where `stop` says so the result is of the seeds that were
-// done. Throws Interrupted where not one was, and Error as `render` does.
+// done. Variants that cannot be rendered are left out, with a warning. Throws Interrupted where not
+// one seed was done, and Error as `render` does where no variant is left.
 ChartResult run_chart(
-    const ChartOptions& options, const RenderJob& job, const std::function<bool()>& stop);
+    const ChartOptions& options,
+    const RenderJob& job,
+    const std::vector<Variant>& variants,
+    const Devices& devices,
+    const std::function<bool()>& stop);
 
 }  // namespace wavepath

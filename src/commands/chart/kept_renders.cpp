@@ -9,6 +9,8 @@
 
 #include <cctype>
 #include <charconv>
+#include <functional>
+#include <set>
 
 namespace wavepath {
 
@@ -21,6 +23,10 @@ uint64_t hash_of(const std::string& text) {
     uint64_t hash = 0xCBF29CE484222325;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3;
     return hash;
+}
+
+std::string text_of(const nlohmann::ordered_json& json) {
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 // All that decides the picture and its time. Of the scene's files their sizes and times of change
@@ -36,7 +42,7 @@ std::string key_of(
             {file.string(), std::filesystem::file_size(file, ignored),
              std::filesystem::last_write_time(file, ignored).time_since_epoch().count()});
     }
-    return key.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return text_of(key);
 }
 
 std::filesystem::path name_of_render(
@@ -72,23 +78,28 @@ std::optional<KeptRender> load(const std::filesystem::path& path, const std::str
 
 }  // namespace
 
+Devices open_devices(const std::vector<Variant>& variants, const std::string& more) {
+    std::set<std::string, std::greater<>> selectors{more};  // "" is the last
+    for (const Variant& variant : variants) selectors.insert(variant.device);
+    Devices devices;
+    for (const std::string& selector : selectors) devices.emplace(selector, open_device(selector));
+    return devices;
+}
+
 KeptRenders::KeptRenders(
-    std::filesystem::path folder, const RenderJob& job, std::vector<std::filesystem::path> files)
-    : folder_(std::move(folder)), job_(job), files_(std::move(files)) {
+    std::filesystem::path folder,
+    const RenderJob& job,
+    std::vector<std::filesystem::path> files,
+    const Devices& devices)
+    : folder_(std::move(folder)), job_(job), files_(std::move(files)), devices_(devices) {
     std::error_code failure;
     std::filesystem::create_directories(folder_, failure);
     if (failure) throw Error("{}: {}; name another folder", folder_.string(), failure.message());
 }
 
-const Device& KeptRenders::device(const std::string& selector) {
-    const auto found = devices_.find(selector);
-    if (found != devices_.end()) return found->second;
-    return devices_.emplace(selector, open_device(selector)).first->second;
-}
-
 KeptRender KeptRenders::get(
     const Variant& variant, uint64_t samples, uint32_t seed, const std::function<bool()>& stop) {
-    const Device& on = device(variant.device);
+    const Device& on = devices_.at(variant.device);
     job_.settings = variant.settings;
     job_.settings.samples = samples;
     job_.settings.seconds = 0;
@@ -113,6 +124,9 @@ KeptRender KeptRenders::get(
     kept.nonfinite_samples = result.film.nonfinite.samples;
     kept.image.metadata = {
         {key_name, key},
+        {"wavepath.scene", job_.scene.name},
+        {"wavepath.samples", std::to_string(samples)},
+        {"wavepath.settings", text_of(settings_report(job_))},
         {"wavepath.bias", kept.bias},
         {"wavepath.chart.seconds", fmt::format("{}", kept.seconds)},
         {"wavepath.chart.nonfinite_samples", std::to_string(kept.nonfinite_samples)}};

@@ -13,11 +13,18 @@
 namespace wavepath {
 
 struct KeptRender {
-    Image image;         // R, G, B
+    Image image;         // R, G, B, with the metadata that render_command reads
     double seconds = 0;  // of rendering: without loading and compiling
     std::string bias;    // what it does to the expected value; empty: nothing
     uint64_t nonfinite_samples = 0;
 };
+
+// By selector.
+using Devices = std::map<std::string, Device>;
+
+// Those of the variants and `more`: others before PoCL, which would leave the loader nothing else
+// (open_device).
+Devices open_devices(const std::vector<Variant>& variants, const std::string& more);
 
 class KeptRenders {
   public:
@@ -25,7 +32,8 @@ class KeptRenders {
     KeptRenders(
         std::filesystem::path folder,
         const RenderJob& job,
-        std::vector<std::filesystem::path> files);
+        std::vector<std::filesystem::path> files,
+        const Devices& devices);
 
     // The picture of `samples` a pixel from `seed`: from the folder, if it was made by the same
     // program, device, settings and scene file, else rendered now. Throws Interrupted where `stop`
@@ -37,13 +45,11 @@ class KeptRenders {
     std::size_t rendered() const { return rendered_; }
     std::size_t found() const { return found_; }
 
-    const Device& device(const std::string& selector);
-
   private:
     std::filesystem::path folder_;
     RenderJob job_;
     std::vector<std::filesystem::path> files_;
-    std::map<std::string, Device> devices_;  // by selector
+    const Devices& devices_;
     std::size_t rendered_ = 0;
     std::size_t found_ = 0;
 };

@@ -18,13 +18,43 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-ChartVerdict verdict_of(const VariantCurve& curve, const Reference& reference) {
-    if (curve.nonfinite_samples > 0) return ChartVerdict::not_finite;
-    if (!curve.bias.empty()) return ChartVerdict::biased;
-    if (curve.tail.infinite_variance) return ChartVerdict::infinite_variance;
+// What each picture is off the mean of the others, relative, one number a pixel: the samples of the
+// variant alone, where deviations from a reference would have its tail too.
+std::vector<double> own_deviations(const std::vector<Image>& pictures) {
+    std::vector<double> deviations;
+    const auto others = static_cast<double>(pictures.size() - 1);
+    const std::size_t pixels = std::size_t{pictures[0].width} * pictures[0].height;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const auto value = [&](const Image& picture) {
+            double sum = 0;
+            for (const char* channel : {"R", "G", "B"}) sum += picture.channels.at(channel)[i] / 3;
+            return sum;
+        };
+        double sum = 0;
+        for (const Image& picture : pictures) sum += value(picture);
+        const double mean = sum / (others + 1);
+        for (const Image& picture : pictures) {
+            const double own = value(picture);
+            const double off = (own - (sum - own) / others) / std::sqrt(mean * mean + 0.01);
+            if (std::isfinite(off)) deviations.push_back(off);
+        }
+    }
+    return deviations;
+}
+
+// Whether the mean is off by more than chance: 5 standard errors, where the interval has 1.96.
+bool is_off(const Interval& floor) {
+    return floor.value - 5 / 1.96 * (floor.high - floor.value) > 0;
+}
+
+ChartVerdict verdict_of(const VariantCurve& curve) {
     const double last = curve.points.back().median_rel_mse();
-    // A reference whose own error is not known is taken at its word.
-    if (!(last > 0) || last < reference.rel_mse) return ChartVerdict::below_reference;
+    if (curve.nonfinite_samples > 0 || std::isnan(last)) return ChartVerdict::not_finite;
+    // A reference whose own error is not known is taken at its word, and its error is in the floor.
+    const bool has_halves = std::isfinite(curve.reference_rel_mse);
+    if (curve.tail.infinite_variance) return ChartVerdict::infinite_variance;
+    if (!curve.bias.empty() || (has_halves && is_off(curve.floor))) return ChartVerdict::biased;
+    if (!(last > 0) || last < curve.reference_rel_mse) return ChartVerdict::below_reference;
     return ChartVerdict::sound;
 }
 
@@ -65,13 +95,9 @@ VariantCurve measure_curve(
     const ChartPoint& last = curve.points.back();
     curve.efficiency = efficiency(last.rel_mses, last.seconds);
     curve.floor = bias_floor(last_pictures, reference.half1, reference.half2);
-    std::vector<double> deviations;
-    for (const Image& picture : last_pictures) {
-        const std::vector<double> more = relative_deviations(picture, reference.half1);
-        deviations.insert(deviations.end(), more.begin(), more.end());
-    }
-    curve.tail = tail_of(deviations);
-    curve.verdict = verdict_of(curve, reference);
+    curve.tail = tail_of(own_deviations(last_pictures));
+    curve.reference_rel_mse = reference.rel_mse;
+    curve.verdict = verdict_of(curve);
     return curve;
 }
 

@@ -32,21 +32,23 @@ struct ChartPoint {
 
 enum class ChartVerdict {
     sound,
-    biased,             // by what its settings say
+    biased,             // by what its settings say, or beyond chance
     infinite_variance,  // so that no error tells what the next one will be
     not_finite,         // some samples
     below_reference,    // as near to the truth as the reference is
 };
 
 struct VariantCurve {
-    std::string label, command;
+    std::string label;
+    std::string command;  // of its last picture
     std::string bias;
     std::vector<ChartPoint> points;  // ascending
     uint64_t nonfinite_samples = 0;
     Interval slope_samples, slope_time;  // of log relMSE over log samples, log time
     Interval efficiency;                 // of the last point [1/s]
     Interval floor;                      // relMSE that more samples do not take away
-    Tail tail;                           // of deviations at the last point
+    Tail tail;                           // of the seeds' deviations at the last point
+    double reference_rel_mse = 0;        // of the reference that it is judged by
     ChartVerdict verdict = ChartVerdict::sound;
 };
 

@@ -70,7 +70,11 @@ std::vector<Variant> parse_variants(
             throw Error("--methods: \"{}\" stands there twice; take one away", variant.label);
         const RenderOptions own = options_of(words, options, variant.label);
         variant.device = own.device;
-        variant.settings = parse_settings(own);
+        try {
+            variant.settings = parse_settings(own);
+        } catch (const Error& error) {
+            throw Error("--methods, \"{}\": {}", variant.label, error.what());
+        }
         variant.settings.camera = job.settings.camera;
         variant.settings.width = job.settings.width;
         variant.settings.height = job.settings.height;

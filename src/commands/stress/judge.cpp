@@ -8,7 +8,8 @@ namespace wavepath {
 
 namespace {
 
-constexpr double critical = 4.8916;  // |z| at false_alarm_of_bias, of both sides
+// |z| that the mean of a right estimator exceeds with a probability of 1e-6, were it normal.
+constexpr double critical = 4.8916;
 
 // The median of |mean of m values - 1| over groups of m, for m = 1, 4, 16, ... while 64 groups are
 // left. Values in any order: neighbours in a picture need not have one expectation.

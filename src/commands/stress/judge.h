@@ -21,8 +21,6 @@ struct Judgement {
 
 // Samples to an error of 1 % are 10^4 times the relative variance: above this one calls it noisy.
 inline constexpr double noisy_variance = 25;
-// Chance that a right estimator is called biased, were its mean normal.
-inline constexpr double false_alarm_of_bias = 1e-6;
 
 // Renders and judges. By order: `biased` where a sample is not finite; `infinite variance` where
 // the tail of the samples says so and no finite variance is predicted, since then a standard error

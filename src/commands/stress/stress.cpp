@@ -1,7 +1,10 @@
 #include "commands/stress/stress.h"
 
+#include "commands/interrupt.h"
+#include "commands/output_folder.h"
 #include "commands/stress/matrix.h"
 #include "device/device.h"
+#include "device/driver_failure.h"
 #include "error.h"
 #include "image/atomic_file.h"
 #include "page/chart.h"
@@ -49,17 +52,13 @@ void keep_methods(std::vector<Situation>& situations, const std::vector<std::str
     });
 }
 
-void make_folder(const std::filesystem::path& folder) {
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
-    if (failure)
-        throw Error(
-            "{}: cannot be made: {}; name another folder", folder.string(), failure.message());
-}
-
+// A signal to stop is heeded after the cell in which it comes.
 std::vector<Cell> judge_all(const Device& device, std::vector<Situation> situations) {
+    const InterruptGuard interrupt;
+    const DriverFailureGuard driver;
     std::vector<Cell> cells;
     for (Situation& situation : situations) {
+        if (interrupt.requested()) break;
         const Judgement judgement = judge(device, situation);
         situation.scene = {};
         cells.push_back({std::move(situation), judgement});
@@ -73,15 +72,21 @@ std::vector<Cell> judge_all(const Device& device, std::vector<Situation> situati
 }
 
 void run_stress(const StressOptions& options) {
+    prepare_signals();
     check_gnuplot();
     std::vector<Situation> situations =
         all_situations(options.quick ? Effort::quick : Effort::whole);
     keep_methods(situations, options.methods);
-    make_folder(options.folder);
+    make_output_folder(options.folder, "index.html");
     const Device device = open_device(options.device);
     const std::string device_name = device.info.platform + ", " + device.info.name;
     const std::vector<Cell> cells = judge_all(device, std::move(situations));
-    AtomicFile(options.folder / "stress.json").commit(json_of(cells, device_name).dump(2) + "\n");
+    if (cells.empty()) throw Interrupted{interrupt_signal()};
+    AtomicFile(options.folder / "stress.json")
+        .commit(
+            json_of(cells, device_name)
+                .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+            "\n");
     write_matrix(cells, device_name, options.folder);
 
     std::size_t unexpected = 0;
@@ -98,6 +103,7 @@ void run_stress(const StressOptions& options) {
         throw Error(
             "{} of {} verdicts differ from those expected; see {}", unexpected, cells.size(),
             (options.folder / "index.html").string());
+    if (interrupt_signal() != 0) throw Interrupted{interrupt_signal()};
 }
 
 }  // namespace

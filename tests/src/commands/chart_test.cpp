@@ -1,9 +1,11 @@
 // `wavepath chart`: what it measures, keeps and says.
+#include "image/exr_writer.h"
 #include "support/command.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -64,7 +66,9 @@ TEST_F(ChartCommand, MeasuresErrorAgainstTimeAndSamples) {
     // All indirect light is missing: its square is the floor, which more samples do not lower.
     EXPECT_GT(cut["floor_rel_mse"]["low"].get<double>(), 0.01);
     EXPECT_THAT(page, HasSubstr("bias of path --termination depth:1"));
-    EXPECT_THAT(page, HasSubstr("--method path --sampler independent --spp"));
+    const std::string command = variants.at("path --sampler independent")["command"];
+    for (const char* word : {"--method path", "--sampler independent", "--spp 16", "--seed 2"})
+        EXPECT_THAT(command, HasSubstr(word));
     for (const char* link : {"src=\"http", "href=\"http", "url("})
         EXPECT_EQ(page.find(link), std::string::npos) << link;  // no network
     const std::string csv = folder.read("c/chart.csv");
@@ -96,13 +100,92 @@ TEST_F(ChartCommand, SaysWhatItCannotTake) {
     EXPECT_THAT(chart("--methods mis,mis").words, HasSubstr("\"mis\" stands there twice"));
     EXPECT_THAT(chart("--methods 'mis --size 8x8'").words, HasSubstr("\"mis --size 8x8\""));
     EXPECT_THAT(chart("--methods ''").words, HasSubstr("name a method"));
-    EXPECT_THAT(chart("--methods 'mis --termination never'").words, HasSubstr("never"));
+    EXPECT_THAT(
+        chart("--methods 'mis --termination never'").words,
+        HasSubstr("\"mis --termination never\""));
     EXPECT_THAT(chart("--budget 2").words, HasSubstr("give one of them"));
-    EXPECT_THAT(chart("--time 2").words, HasSubstr("give"));
+    EXPECT_THAT(chart("--time 2").words, HasSubstr("give --budget"));
+    EXPECT_THAT(chart("--seed 2").words, HasSubstr("--seed: a chart takes --methods"));
     EXPECT_THAT(chart("--reference nowhere.exr").words, HasSubstr("nowhere.exr"));
     for (const char* bad : {"--methods mis,mis", "--budget 2", "--reference nowhere.exr"})
         EXPECT_EQ(chart(bad).exit_code, 1) << bad;
     EXPECT_FALSE(std::filesystem::exists(folder / "c" / "chart.html"));
+}
+
+// A page's command renders the picture beside it.
+TEST_F(ChartCommand, CommandsRenderTheirPictures) {
+    ASSERT_EQ(chart("--methods 'path --termination depth:3'").exit_code, 0);
+    const std::string command = json("c/chart.json")["variants"][0]["command"];
+    ASSERT_TRUE(command.starts_with("wavepath ")) << command;
+    ASSERT_EQ(run(command.substr(9) + " --quiet -o " + path("again.exr")).exit_code, 0);
+    for (const auto& file : std::filesystem::directory_iterator(folder / "c" / "renders")) {
+        if (!file.path().filename().string().starts_with("path___termination_depth_3.16.2."))
+            continue;
+        const Image kept = read_exr(file.path());
+        const Image again = read_exr(path("again.exr"));
+        for (const char* channel : {"R", "G", "B"})
+            EXPECT_EQ(kept.channels.at(channel), again.channels.at(channel));
+        return;
+    }
+    FAIL() << "no picture of 16 samples and seed 2 was kept";
+}
+
+// Its own error is not known then, and one of another size is refused before anything is rendered.
+TEST_F(ChartCommand, TakesAReference) {
+    const std::string picture = " --size 32x32 --spp 256 --seed 9 --quiet -o " + path("r.exr");
+    ASSERT_EQ(run("render " + cornell_box + picture).exit_code, 0);
+    const Outcome outcome = chart("--methods path --reference " + path("r.exr"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.words;
+    const nlohmann::json report = json("c/chart.json");
+    EXPECT_TRUE(report["reference"]["rel_mse"].is_null());
+    EXPECT_GT(report["variants"][0]["points"][1]["rel_mse"][0].get<double>(), 0.1);
+    const Outcome other =
+        run("chart " + cornell_box + " --size 16x16 --spp 4 --reference " + path("r.exr") + " -o " +
+            path("d"));
+    EXPECT_EQ(other.exit_code, 1);
+    EXPECT_THAT(other.words, HasSubstr("has 32 x 32 pixels, and the picture 16 x 16"));
+}
+
+// By a pilot's time, of which a test can say no more than that there are that many points.
+TEST_F(ChartCommand, TakesTimes) {
+    const Outcome outcome =
+        run("chart " + cornell_box + " --size 16x16 --times .02,.01 --seeds 2 --methods mis -o " +
+            path("d"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.words;
+    const nlohmann::json points = json("d/chart.json")["variants"][0]["points"];
+    ASSERT_GE(points.size(), 1U);
+    ASSERT_LE(points.size(), 2U);
+    if (points.size() == 2) {
+        EXPECT_NEAR(points[1]["samples"].get<double>() / points[0]["samples"].get<double>(), 2, 1);
+    }
+}
+
+// `path` finds no point light: with a lamp beside it is biased, without it is left out.
+TEST_F(ChartCommand, TellsWhatAMethodCannotFind) {
+    const auto scene = [&](const char* name, bool has_lamp) {
+        nlohmann::json gltf = nlohmann::json::parse(std::ifstream(cornell_box));
+        gltf["extensionsUsed"].push_back("KHR_lights_punctual");
+        gltf["extensions"]["KHR_lights_punctual"]["lights"] = {
+            {{"type", "point"}, {"intensity", 2.0}}};
+        gltf["nodes"].push_back(
+            {{"translation", {0.0, 0.5, 0.3}},
+             {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+        gltf["scenes"][0]["nodes"].push_back(gltf["nodes"].size() - 1);
+        if (!has_lamp)
+            for (nlohmann::json& material : gltf["materials"]) material.erase("emissiveFactor");
+        return folder.write(name, gltf.dump()).string();
+    };
+    const std::string rest = " --size 32x32 --spp 64 --seeds 3 --methods mis,path -o ";
+    ASSERT_EQ(run("chart " + scene("a.gltf", true) + rest + path("a")).exit_code, 0);
+    const nlohmann::json both = json("a/chart.json")["variants"];
+    EXPECT_EQ(both[0]["verdict"], "sound");
+    EXPECT_EQ(both[1]["verdict"], "biased");
+    EXPECT_EQ(both[1]["bias"], "");
+    const Outcome outcome = run("chart " + scene("b.gltf", false) + rest + path("b"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.words;
+    EXPECT_THAT(outcome.words, HasSubstr("\"path\""));
+    EXPECT_THAT(outcome.words, HasSubstr("it is left out"));
+    EXPECT_EQ(json("b/chart.json")["variants"].size(), 1U);
 }
 
 // Values with commas in them are no variants of their own.
