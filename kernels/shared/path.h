@@ -18,7 +18,7 @@ enum RayPlane {
 
 // hits: where it met the scene
 enum HitPlane {
-    HIT_PRIMITIVE,  // (int bits) the triangle, or HIT_MISS or HIT_ENDED
+    HIT_PRIMITIVE,  // (int bits) the triangle, or one of the codes below
     HIT_T,          // distance [normalised]
     HIT_U,          // barycentric weight of corner 1
     HIT_V,          // of corner 2
@@ -33,12 +33,13 @@ enum HitPlane {
 #define HIT_DIELECTRIC (-6)
 #define HIT_LEAVING (-7)
 
-// What HIT_PRIMITIVE says, for which geometry/path_state.cl has words:
+// What HIT_PRIMITIVE says, for which geometry/path_state.cl has words. first_hit and
+// roulette_compact look at every code; what a ray has just hit, a Hit, is asked by its id.
 //
 // 0 and more      The path is at this triangle.
 //   set by        intersect, find_contacts; resume_branch; sample_indirect leaves it so
 //   seen by       all stages that shade, until one of them sets another code
-//   valid         HIT_T, HIT_U, HIT_V; surfaces from interact on
+//   valid         HIT_U, HIT_V, and HIT_T where it is no sign (below); surfaces from interact on
 // HIT_MISS        It left the scene.
 //   set by        intersect; sample_distance, in place of HIT_LEAVING
 //   seen by       shade_miss, first_hit; roulette_compact ends it
@@ -50,10 +51,10 @@ enum HitPlane {
 //   valid         its radiance
 // HIT_IDLE        There is no path: the slot has no work left.
 //   set by        generate_rays, move_paths
-//   seen by       scatter_queue, which fills the slot
+//   seen by       scatter_queue, which fills the slot; intersect, which has no ray to trace
 // HIT_MEDIUM      It stopped in a medium before the surface.
 //   set by        sample_distance; resume_branch; scatter_medium leaves it so
-//   seen by       direct_light, scatter_medium
+//   seen by       direct_light, scatter_medium; sample_distance, where it is resumed
 //   valid         HIT_T, SURFACE_X
 // HIT_BOUNDARY    It passes a boundary or a wall and goes on as the same ray.
 //   set by        pass_boundary, pass_walls
@@ -72,9 +73,12 @@ enum HitPlane {
 //
 // 0 and more      The triangle was met at this distance.
 // T_RESUMED       The path is back at a branch vertex, which was shaded before. Set by
-//                 resume_branch; what shades skips it; next_child (sampling/branch.cl) sets 0.
+//                 resume_branch; what shades skips it.
 // others below 0  It is back on a segment of this length that it went through before, to stop on
-//                 it. Set by resume_branch, seen by sample_distance.
+//                 it, or has stopped there. Set by resume_branch and sample_distance, seen by
+//                 sample_distance.
+// Both            are no rays to trace (intersect, find_contacts) and no first hits. generate_rays
+//                 sets 0, and next_child (sampling/branch.cl) when the path leaves a vertex.
 
 // surfaces: what was hit, where HIT_PRIMITIVE >= 0
 enum SurfacePlane {
@@ -105,7 +109,7 @@ enum SurfacePlane {
 #define SURFACE_PLANES_FLAT SURFACE_N_X
 #define SURFACE_PLANES_SHADED SURFACE_METALLIC
 
-// media: where a path stands among the media and the surfaces that it passes (only with
+// path_media: where a path stands among the media and the surfaces that it passes (only with
 // HAS_PASSAGES). A ray that passes an index-matched boundary or a smooth thin wall keeps its
 // origin: its next segment begins at MEDIUM_T, behind the triangle MEDIUM_PRIMITIVE, and no offset
 // has to be right.

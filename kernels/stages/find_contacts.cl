@@ -36,8 +36,8 @@ kernel void find_contacts(
     shown.t = PLANE(hits, HIT_T)[slot];
     shown.u = PLANE(hits, HIT_U)[slot];
     shown.v = PLANE(hits, HIT_V)[slot];
-    if (shown.primitive < 0) return;
-    if (HAS_SPLITS && shown.t < 0.0f) return;
+    if (!at_surface(shown.primitive)) return;
+    if (is_traced(hits, stride, slot)) return;
     global const float* triangle = triangles + (size_t)TRIANGLE_FLOATS * shown.primitive;
     global const DeviceMaterial* material = materials + as_int(triangle[TRIANGLE_MATERIAL]);
     int is_wall = (material->boundary == BOUNDARY_OPAQUE) & (material->transmission > 0.0f);

@@ -41,5 +41,5 @@ kernel void move_paths(
     const int branch_planes =
         HAS_SPLITS ? (int)(BRANCH_PLANES_USED * BRANCH_LEVELS * params.split_depth) : 0;
     for (int k = 0; k < branch_planes; ++k) PLANE(branches, k)[to] = PLANE(branches, k)[from];
-    PLANE(hits, HIT_PRIMITIVE)[from] = as_float(HIT_IDLE);
+    set_hit(hits, stride, from, HIT_IDLE);
 }

@@ -81,7 +81,7 @@ kernel void roulette_compact(
                   PLANE(ids, ID_SEED)[slot], HAS_SPLITS ? hash_pair(dimension, branch) : dimension);
     const float u = unit_float(hash_pair(seed, PLANE(ids, ID_INDEX)[slot]));
     const int done =
-        HAS_PASSAGES ? (primitive == HIT_MISS) | (primitive == HIT_ENDED) : primitive < 0;
+        HAS_PASSAGES ? (primitive == HIT_MISS) | (primitive == HIT_ENDED) : !at_surface(primitive);
     // nothing makes a NaN throughput a number again: its path is over, and accumulate counts it
     const int over = done | is_nan_bits(throughput.x + throughput.y + throughput.z);
     const int dies = !over && u >= survival;

@@ -41,6 +41,8 @@ KernelParameter parameter(const std::string& text, const std::string& kernel) {
         return word == "constant" || word == "global" || word == "restrict";
     });
     if (left.size() != 2) throw Error("kernel {}: no parameter: {}", kernel, text);
+    if (!read.is_buffer && left[0] != "uint")
+        throw Error("kernel {}: numbers are uint, and this is none: {}", kernel, text);
     read.type = left[0];
     read.name = left[1];
     read.is_written = read.is_buffer && !is_const;

@@ -18,7 +18,7 @@
 namespace wavepath {
 namespace {
 
-// Everything on but for what needs the other of two ways to connect.
+// All that decides whether there is a stage, but for what needs the other of two ways to connect.
 Features all_features() {
     Features f;
     f.contacts = f.media = f.textures = f.partial_boundaries = true;
