@@ -62,13 +62,14 @@ TEST_F(Signals, StreamsThatTakeNothingAreNoReasonToStop) {
 }
 
 // The table is the result there, but the pictures come first.
-TEST_F(Signals, OutputThatIsNotWholeIsAnErrorBehindThePictures) {
-    const std::string tiny = "profile " + cornell_box + " --size 4x4 --spp 1 -o " + path("a.exr");
+TEST_F(Signals, OutputThatIsNotWholeIsAnErrorBehindTheReport) {
+    const std::string tiny =
+        "profile " + cornell_box + " --size 4x4 --spp 1 --json " + path("a.json");
     const int status =
         std::system((WAVEPATH_BINARY " " + tiny + " > /dev/full 2> " + path("log")).c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1);
     EXPECT_THAT(folder.read("log"), HasSubstr("standard output: cannot be written"));
-    EXPECT_EQ(read_exr(path("a.exr")).metadata.at("wavepath.samples"), "1");
+    EXPECT_EQ(json("a.json")["samples_per_pixel"], 1);
 }
 
 TEST_F(Signals, NohupIsHeeded) {
