@@ -1,5 +1,6 @@
 #include "commands/devices.h"
 
+#include "commands/json_text.h"
 #include "device/device_json.h"
 #include "device/device_probe.h"
 #include "device/selection.h"
@@ -82,8 +83,7 @@ void print_json(const std::vector<DeviceInfo>& devices) {
     }
     const nlohmann::ordered_json report = {
         {"schema", "wavepath devices"}, {"schema_version", schema_version}, {"devices", rows}};
-    // A driver's text may not be UTF-8: replaced rather than refused.
-    fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(report, 2));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "commands/diff.h"
 
+#include "commands/json_text.h"
 #include "commands/output_folder.h"
 #include "commands/render_command.h"
 #include "error.h"
@@ -17,7 +18,6 @@
 
 #include <CLI/CLI.hpp>
 #include <bit>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -126,16 +126,13 @@ std::vector<std::vector<std::string>> lines_of(const Diff& diff) {
 }
 
 nlohmann::ordered_json json_of(const DiffOptions& options, const Diff& diff) {
-    const auto number = [](double x) {
-        return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
-    };
     nlohmann::ordered_json errors = nlohmann::ordered_json::array();
     for (const ErrorRow& row : diff.errors)
         errors.push_back(
             {{"of", row.of},
              {"against", row.against},
-             {"mse", number(row.mse)},
-             {"rel_mse", number(row.rel_mse)}});
+             {"mse", json_number(row.mse)},
+             {"rel_mse", json_number(row.rel_mse)}});
     return {
         {"schema", "wavepath diff"},
         {"schema_version", schema_version},
@@ -144,19 +141,15 @@ nlohmann::ordered_json json_of(const DiffOptions& options, const Diff& diff) {
         {"width", diff.a.width},
         {"height", diff.a.height},
         {"errors", errors},
-        {"ratio_of_means", number(diff.ratio.value)},
-        {"ratio_standard_error", number(diff.ratio.standard_error)},
+        {"ratio_of_means", json_number(diff.ratio.value)},
+        {"ratio_standard_error", json_number(diff.ratio.standard_error)},
         {"equal_pixels", diff.equal_pixels},
         {"left_out_pixels", diff.ratio.left_out},
         {"exchangeable", diff.exchangeable},
-        {"p_same_expectation", diff.p ? number(*diff.p) : nullptr},
+        {"p_same_expectation", diff.p ? json_number(*diff.p) : nullptr},
         {"alpha", alpha},
         {"differ", diff.differ()},
     };
-}
-
-std::string text_of(const nlohmann::ordered_json& json) {
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 void write_page(const DiffOptions& options, const Diff& diff) {
@@ -203,7 +196,7 @@ void run_diff(const DiffOptions& options) {
         make_output_folder(options.folder, "index.html");
         write_page(options, diff);
     }
-    const std::string json = text_of(json_of(options, diff));
+    const std::string json = json_text(json_of(options, diff), 2) + "\n";
     if (!options.json.empty()) AtomicFile(options.json).commit(json);
     for (const auto& line : lines_of(diff)) fmt::print("{}: {}\n", line[0], line[1]);
     if (diff.differ()) throw ExpectationsDiffer();

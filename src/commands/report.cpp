@@ -1,11 +1,11 @@
 #include "commands/report.h"
 
+#include "commands/json_text.h"
 #include "commands/revision.h"
 
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace wavepath {
@@ -13,10 +13,6 @@ namespace wavepath {
 using nlohmann::ordered_json;
 
 namespace {
-
-ordered_json number(double value) {
-    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
 
 uint64_t peak_host_memory() {
     rusage usage{};
@@ -79,7 +75,7 @@ ordered_json rays_report(const RenderResult& result) {
     return {
         {"closest_hit", result.rays.closest},
         {"occlusion", result.rays.connections},
-        {"per_s", number(rays / result.times.render)},
+        {"per_s", json_number(rays / result.times.render)},
     };
 }
 
@@ -151,9 +147,9 @@ ordered_json profile_report(const RenderResult& result) {
             {"launches", row.launches},
             {"items", row.items},
             {"seconds", row.seconds},
-            {"share", number(row.seconds / result.times.render)},
-            {"ns_per_item", number(1e9 * row.seconds / items)},
-            {"items_per_s", number(items / row.seconds)},
+            {"share", json_number(row.seconds / result.times.render)},
+            {"ns_per_item", json_number(1e9 * row.seconds / items)},
+            {"items_per_s", json_number(items / row.seconds)},
         });
     }
     return {
@@ -187,15 +183,15 @@ ordered_json render_report(const Device& device, const RenderJob& job, const Ren
         {"times_s", times_report(job, result)},
         {"program_build", build_report(result.program)},
         {"samples_per_pixel", result.samples},
-        {"samples_per_s", number(samples / result.times.render)},
+        {"samples_per_s", json_number(samples / result.times.render)},
         {"batches", result.batches},
         {"rays", rays_report(result)},
         {"path_lengths", result.rays.path_lengths},
         {"mean_path_length",
-         number(static_cast<double>(result.rays.closest) / static_cast<double>(paths))},
-        {"relative_error", number(result.film.relative_error)},
+         json_number(static_cast<double>(result.rays.closest) / static_cast<double>(paths))},
+        {"relative_error", json_number(result.film.relative_error)},
         {"largest_outlier",
-         {{"share", number(result.outlier.share)},
+         {{"share", json_number(result.outlier.share)},
           {"x", result.outlier.x},
           {"y", result.outlier.y}}},
         {"bias", bias_of(job.settings, result)},

@@ -1,9 +1,9 @@
 #include "commands/roofline.h"
 
+#include "commands/json_text.h"
 #include "device/program.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace wavepath {
@@ -39,10 +39,6 @@ RooflineRow row_of(const ProfileRow& row, const ordered_json& count, const std::
     return result;
 }
 
-ordered_json number(double value) {
-    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
 }  // namespace
 
 double Roofline::share_of_roof(const RooflineRow& row) const {
@@ -68,7 +64,7 @@ ordered_json roofline_report(const Roofline& roofline) {
             {"kernel", row.kernel},
             {"flops_per_item", row.flops_per_item},
             {"bytes_per_item", row.bytes_per_item},
-            {"flops_per_byte", number(row.flops_per_byte())},
+            {"flops_per_byte", json_number(row.flops_per_byte())},
             {"flops_per_s", row.flops_per_s},
             {"bytes_per_s", row.bytes_per_s},
             {"share_of_roof", roofline.share_of_roof(row)},

@@ -1,5 +1,6 @@
 #include "commands/chart/chart_page.h"
 
+#include "commands/json_text.h"
 #include "commands/render_command.h"
 #include "commands/report.h"
 #include "film/auto_exposure.h"
@@ -19,12 +20,11 @@ using nlohmann::ordered_json;
 
 constexpr int chart_schema = 1;
 
-ordered_json number(double value) {
-    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
 ordered_json interval(const Interval& of) {
-    return {{"value", number(of.value)}, {"low", number(of.low)}, {"high", number(of.high)}};
+    return {
+        {"value", json_number(of.value)},
+        {"low", json_number(of.low)},
+        {"high", json_number(of.high)}};
 }
 
 std::string text(double value) {
@@ -56,9 +56,9 @@ ordered_json curve_json(const VariantCurve& curve) {
         {"efficiency_per_s", interval(curve.efficiency)},
         {"floor_rel_mse", interval(curve.floor)},
         {"tail_index", interval(curve.tail.index)},
-        {"share_of_largest", number(curve.tail.share_of_largest)},
-        {"variance_of_variance", number(curve.tail.variance_of_variance)},
-        {"reference_rel_mse", number(curve.reference_rel_mse)},
+        {"share_of_largest", json_number(curve.tail.share_of_largest)},
+        {"variance_of_variance", json_number(curve.tail.variance_of_variance)},
+        {"reference_rel_mse", json_number(curve.reference_rel_mse)},
         {"nonfinite_samples", curve.nonfinite_samples}};
 }
 
@@ -77,7 +77,7 @@ ordered_json chart_json(const ChartResult& result) {
         {"seeds", result.seeds},
         {"interrupted", result.interrupted},
         {"reference",
-         {{"text", result.reference.text}, {"rel_mse", number(result.reference.rel_mse)}}},
+         {{"text", result.reference.text}, {"rel_mse", json_number(result.reference.rel_mse)}}},
         {"winner", winner ? ordered_json(result.curves[*winner].label) : ordered_json(nullptr)},
         {"variants", curves}};
 }
@@ -235,9 +235,7 @@ void add_pictures(Page& page, const ChartResult& result, const std::filesystem::
 }  // namespace
 
 void write_chart(const ChartResult& result, const std::filesystem::path& folder) {
-    AtomicFile(folder / "chart.json")
-        .commit(
-            chart_json(result).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    AtomicFile(folder / "chart.json").commit(json_text(chart_json(result), 2) + "\n");
     AtomicFile(folder / "chart.csv").commit(chart_csv(result));
     Page page(fmt::format("{}: error against time", result.scene));
     page.paragraph(fmt::format(

@@ -1,6 +1,7 @@
 #include "commands/chart/kept_renders.h"
 
 #include "commands/interrupt.h"
+#include "commands/json_text.h"
 #include "commands/report.h"
 #include "error.h"
 #include "image/exr_writer.h"
@@ -25,10 +26,6 @@ uint64_t hash_of(const std::string& text) {
     return hash;
 }
 
-std::string text_of(const nlohmann::ordered_json& json) {
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 // All that decides the picture and its time. Of the scene's files their sizes and times of change
 // stand for what is in them.
 std::string key_of(
@@ -42,7 +39,7 @@ std::string key_of(
             {file.string(), std::filesystem::file_size(file, ignored),
              std::filesystem::last_write_time(file, ignored).time_since_epoch().count()});
     }
-    return text_of(key);
+    return json_text(key, -1);
 }
 
 std::filesystem::path name_of_render(
@@ -126,7 +123,7 @@ KeptRender KeptRenders::get(
         {key_name, key},
         {"wavepath.scene", job_.scene.name},
         {"wavepath.samples", std::to_string(samples)},
-        {"wavepath.settings", text_of(settings_report(job_))},
+        {"wavepath.settings", json_text(settings_report(job_), -1)},
         {"wavepath.bias", kept.bias},
         {"wavepath.chart.seconds", fmt::format("{}", kept.seconds)},
         {"wavepath.chart.nonfinite_samples", std::to_string(kept.nonfinite_samples)}};

@@ -1,11 +1,11 @@
 #include "commands/stress/matrix.h"
 
+#include "commands/json_text.h"
 #include "page/page.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -127,11 +127,9 @@ std::string words_of(const Cell& cell) {
 }
 
 nlohmann::ordered_json json_of(const std::vector<Cell>& cells, const std::string& device) {
-    const auto number = [](double x) {
-        return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
-    };
     const auto interval = [&](const Interval& i) {
-        return nlohmann::ordered_json{number(i.value), number(i.low), number(i.high)};
+        return nlohmann::ordered_json{
+            json_number(i.value), json_number(i.low), json_number(i.high)};
     };
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const auto& [situation, judgement] : cells)
@@ -143,10 +141,10 @@ nlohmann::ordered_json json_of(const std::vector<Cell>& cells, const std::string
             {"samples", judgement.samples},
             {"seconds", judgement.seconds},
             {"truth", situation.truth},
-            {"mean", number(judgement.mean)},
-            {"standard_error", number(judgement.standard_error)},
-            {"relative_variance", number(judgement.relative_variance)},
-            {"predicted", situation.relative_variance ? number(*situation.relative_variance)
+            {"mean", json_number(judgement.mean)},
+            {"standard_error", json_number(judgement.standard_error)},
+            {"relative_variance", json_number(judgement.relative_variance)},
+            {"predicted", situation.relative_variance ? json_number(*situation.relative_variance)
                                                       : nlohmann::ordered_json(nullptr)},
             {"tail_index", interval(judgement.tail.index)},
             {"slope", interval(judgement.slope)},

@@ -1,6 +1,7 @@
 #include "commands/stress/stress.h"
 
 #include "commands/interrupt.h"
+#include "commands/json_text.h"
 #include "commands/output_folder.h"
 #include "commands/stress/matrix.h"
 #include "device/device.h"
@@ -83,10 +84,7 @@ void run_stress(const StressOptions& options) {
     const std::vector<Cell> cells = judge_all(device, std::move(situations));
     if (cells.empty()) throw Interrupted{interrupt_signal()};
     AtomicFile(options.folder / "stress.json")
-        .commit(
-            json_of(cells, device_name)
-                .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-            "\n");
+        .commit(json_text(json_of(cells, device_name), 2) + "\n");
     write_matrix(cells, device_name, options.folder);
 
     std::size_t unexpected = 0;
